@@ -22,10 +22,9 @@ namespace {
 constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 512;  // of more, dense equations take longer than the sparse ones of all
-constexpr int kGuesses = 3;                   // of the complementarity problem where its solution may not be unique
-constexpr int kMostRestarts = 64;             // contacts, one after another in another state, to pivot from
-constexpr double kMostCombinations = 4096.0;  // 4^6
-constexpr double kMostIfNone = 65536.0;       // 4^8: tried before the path is said to end
+constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
+constexpr double kMostCombinations = 4096.0;         // 4^6
+constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
 using States = BranchFinder::States;
 using Options = BranchFinder::Options;
@@ -50,17 +49,23 @@ void TryAll(const Options& options, const std::function<bool(const ContactModes&
   }
 }
 
-// The solutions of the complementarity problem of the rates, each tried like any other combination.
-void TrySolutions(const RateComplementarity& problem, BranchFinder* finder, BranchSet* result) {
-  std::set<States> tried;
-  for (int guess = 0; guess < (problem.unique() ? 1 : kGuesses); ++guess)
-    for (const double sense : {1.0, -1.0}) {
-      if (finder->Cancelled()) return;
-      const std::optional<States> states = problem.Solve(sense, guess);
-      if (!states || !tried.insert(*states).second) continue;
-      finder->TryStates(*states, &result->branches);
+// The solutions of the complementarity problem of the rates, for both senses of the load. Whether they settle both: a
+// direction leads on, or is the branch of arrival; at a start the sense that is not wanted settles itself. Where the
+// solution is not known to exist, a sense for which none is found counts as settled, too.
+bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, BranchFinder* finder, BranchSet* result) {
+  bool both = true;
+  for (const double sense : {1.0, -1.0}) {
+    if (finder->Cancelled()) return true;
+    if (arrival.is_start && sense * arrival.direction[arrival.direction.size() - 1] < 0.0) continue;
+    const std::vector<RateSolution> solutions = problem.Solve(sense);
+    bool settled = solutions.empty() && !problem.unique();
+    for (const RateSolution& solution : solutions) {
+      settled = finder->TrySolution(solution.states, solution.degenerate, sense, &result->branches) || settled;
       ++result->combinations;
     }
+    both = both && settled;
+  }
+  return both;
 }
 
 // Where there are too many combinations: principal pivoting from several first guesses.
@@ -155,9 +160,8 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
     const bool unique = complementarity.unique() && !between_patches;
     if (complementarity.exists() && (unique || !few_enough)) {
-      TrySolutions(complementarity, &finder, &result);
+      solved = TrySolutions(complementarity, arrival, &finder, &result) && !result.branches.empty();
       finder.TryOtherStatesAtNodes(&result.branches);
-      solved = !result.branches.empty();
       result.complete_by = unique ? Completeness::kOnlySolution : Completeness::kNone;
     }
   }

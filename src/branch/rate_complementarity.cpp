@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "contact_path/branch/complementarity.h"
+#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -53,14 +54,13 @@ bool Has(const ContactModes& modes, ContactState state) {
 RateComplementarity::RateComplementarity(const ContactPairs& contacts, const RateProblem& rates,
                                          const std::vector<ContactModes>& options,
                                          const std::vector<int>& weakly_active)
-    : options_(options), weakly_active_(weakly_active) {
-  if (!rates.regular() || !FindRoles(contacts)) return;
-  Build(contacts, rates);
+    : contacts_(contacts), options_(options), weakly_active_(weakly_active) {
+  if (rates.regular() && FindRoles()) Build(rates);
 }
 
-bool RateComplementarity::FindRoles(const ContactPairs& contacts) {
+bool RateComplementarity::FindRoles() {
   for (const int i : weakly_active_) {
-    const ContactPair& contact = *contacts[static_cast<std::size_t>(i)];
+    const ContactPair& contact = *contacts_[static_cast<std::size_t>(i)];
     const ContactModes& modes = options_[static_cast<std::size_t>(i)];
     if (contact.HasTotalLaw()) return false;
     if (Has(modes, ContactState::kOpen))
@@ -109,7 +109,7 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
   return given;
 }
 
-void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem& rates) {
+void RateComplementarity::Build(const RateProblem& rates) {
   const auto count = static_cast<Eigen::Index>(roles_.size()), size = 2 * count;
   // v = A (r + v) + b s': springs of stiffness 1 are part of the condensed problem.
   Eigen::MatrixXd A(size, size);
@@ -140,13 +140,14 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
   for (Eigen::Index k = 0; k < count; ++k) {
     const Role role = roles_[static_cast<std::size_t>(k)];
     const Eigen::Index n = 2 * k, t = n + 1;
-    if (role == Role::kFrictionless || role == Role::kRough) pairs_.push_back({k, Pair::Kind::kNormal, is_given(n)});
+    if (role == Role::kFrictionless || role == Role::kRough)
+      pairs_.push_back({k, Inequality::kNormalReaction, is_given(n)});
     if (role == Role::kRough) {
-      pairs_.push_back({k, Pair::Kind::kPlus, is_given(t)});
-      pairs_.push_back({k, Pair::Kind::kMinus, true});
+      pairs_.push_back({k, Inequality::kConePlus, is_given(t)});
+      pairs_.push_back({k, Inequality::kConeMinus, true});
     }
-    if (role == Role::kEdgePlus) pairs_.push_back({k, Pair::Kind::kPlus, is_given(t)});
-    if (role == Role::kEdgeMinus) pairs_.push_back({k, Pair::Kind::kMinus, is_given(t)});
+    if (role == Role::kEdgePlus) pairs_.push_back({k, Inequality::kConePlus, is_given(t)});
+    if (role == Role::kEdgeMinus) pairs_.push_back({k, Inequality::kConeMinus, is_given(t)});
   }
   const auto num_pairs = static_cast<Eigen::Index>(pairs_.size());
   Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(size, num_pairs), C = Eigen::MatrixXd::Zero(size, size);
@@ -155,12 +156,12 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
     const Eigen::Index n = 2 * pair.contact, t = n + 1;
-    if (pair.kind == Pair::Kind::kNormal) {
+    if (pair.force == Inequality::kNormalReaction) {
       Q(n, p) = 1.0;
       normal_pair[static_cast<std::size_t>(pair.contact)] = p;
       continue;
     }
-    const double sense = pair.kind == Pair::Kind::kPlus ? 1.0 : -1.0;
+    const double sense = pair.force == Inequality::kConePlus ? 1.0 : -1.0;
     if (is_given(t)) {
       Q(t, p) = sense;  // v_t
       continue;
@@ -168,7 +169,7 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
     if (pair.motion_is_second) continue;  // z-, which is no share of the force
     // r_t = sense (w - mu r_n)
     const double friction =
-        contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
+        contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
     Q(t, p) = sense;
     if (is_given(n)) {
       C(t, n) = -sense * friction;  // r_n follows
@@ -197,14 +198,14 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
     const Eigen::Index n = 2 * pair.contact, t = n + 1;
-    if (pair.kind == Pair::Kind::kNormal) {
+    if (pair.force == Inequality::kNormalReaction) {
       matrix_.row(p) = Y.row(n);
       load_[p] = h[n];
       continue;
     }
-    const double sense = pair.kind == Pair::Kind::kPlus ? 1.0 : -1.0;
+    const double sense = pair.force == Inequality::kConePlus ? 1.0 : -1.0;
     const double friction =
-        contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
+        contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
     const Eigen::RowVectorXd rn = is_given(n) ? Y.row(n) : g.row(n);
     const double rn_load = is_given(n) ? h[n] : g_load[n];
     if (pair.motion_is_second) {
@@ -233,34 +234,24 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
             HasOneSolutionForEach(matrix_);
 }
 
-std::optional<std::vector<ContactState>> RateComplementarity::Solve(double load_sense, int guess) const {
-  Eigen::VectorXd cover = Eigen::VectorXd::Ones(matrix_.rows());
-  // Normal and tangential variables covered in other shares lead to other solutions, where there are several.
-  if (guess > 0)
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if ((pairs_[p].kind == Pair::Kind::kNormal) == (guess % 2 == 0))
-        cover[static_cast<Eigen::Index>(p)] = 16.0 * guess;
-  const std::optional<std::vector<bool>> second = SolveByLemke(matrix_, load_sense * load_, cover);
-  if (!second) return std::nullopt;
-  std::vector<ContactState> states;
-  for (const ContactModes& option : options_) states.push_back(option.front().state);
-  for (std::size_t k = 0; k < roles_.size(); ++k)
-    states[static_cast<std::size_t>(weakly_active_[k])] =
-        roles_[k] == Role::kFrictionless ? ContactState::kClosed : ContactState::kStick;
-  const auto moves = [&](std::size_t p) { return (*second)[p] == pairs_[p].motion_is_second; };
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    ContactState& state = states[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pairs_[p].contact)])];
-    if (state == ContactState::kOpen || !moves(p)) continue;
-    switch (pairs_[p].kind) {
-      case Pair::Kind::kNormal: state = ContactState::kOpen; break;
-      case Pair::Kind::kPlus: state = ContactState::kSlipPlus; break;
+std::vector<RateSolution> RateComplementarity::Solve(double load_sense) const {
+  std::vector<RateSolution> solutions;
+  for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_).list) {
+    solutions.push_back({{}, !solution.degenerate.empty()});
+    std::vector<ContactState>& states = solutions.back().states;
+    for (const ContactModes& option : options_) states.push_back(option.front().state);
+    for (std::size_t k = 0; k < roles_.size(); ++k)
+      states[static_cast<std::size_t>(weakly_active_[k])] =
+          roles_[k] == Role::kFrictionless ? ContactState::kClosed : ContactState::kStick;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const auto i = static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pairs_[p].contact)]);
+      const bool moves = solution.second[p] == pairs_[p].motion_is_second;
       // Motions both ways are those of no reaction: the first one stands for both.
-      case Pair::Kind::kMinus:
-        if (state != ContactState::kSlipPlus) state = ContactState::kSlipMinus;
-        break;
+      if (moves && states[i] != ContactState::kOpen && !Slips(states[i]))
+        states[i] = NextMode(*contacts_[i], pairs_[p].force, {states[i], 0}).state;
     }
   }
-  return states;
+  return solutions;
 }
 
 }  // namespace contact_path
