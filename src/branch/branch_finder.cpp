@@ -188,7 +188,7 @@ ContactModes BranchFinder::OntoPatches(const States& states, double sign) {
 std::optional<std::vector<Constraint>> BranchFinder::BrokenOf(const States& states, double load_sense,
                                                               const RateProblem* condensed) {
   if (condensed != nullptr) {
-    const std::optional<CondensedRates> rates = condensed->UniqueRates(states);
+    const std::optional<CondensedRates> rates = condensed->Rates(states);
     if (!rates) return std::nullopt;
     std::vector<Constraint> broken;
     condensed->Broken(states, *rates, rates->load < 0.0 ? -load_sense : load_sense, tolerance_, tolerances::kRate,

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "branch/branch_finder.h"
-#include "branch/rate_problems.h"
 #include "contact_path/branch/branch_order.h"
 #include "contact_path/branch/rate_complementarity.h"
 #include "contact_path/branch/rate_problem.h"
@@ -68,46 +67,28 @@ bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, Br
   return both;
 }
 
-// Where there are too many combinations: principal pivoting from several first guesses.
-// Each result is tried like any other combination.
+// Where there are too many combinations: principal pivoting from the states of now, and from as many contacts as may be
+// in each of the states. Each result is tried like any other combination.
 void TryLikely(const Options& options, const RateProblem* condensed, BranchFinder* finder, BranchSet* result) {
-  std::vector<States> guesses;
-  for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
-                                       ContactState::kSlipMinus, ContactState::kClosed}) {
+  std::set<States> tried;
+  const auto pivot_from = [&](const std::optional<ContactState>& preferred) {
     States guess;
     for (const ContactModes& option : options) {
       const bool has =
           std::any_of(option.begin(), option.end(), [&](const ContactMode& mode) { return mode.state == preferred; });
-      guess.push_back(has ? preferred : option.front().state);
+      guess.push_back(has ? *preferred : option.front().state);
     }
-    guesses.push_back(std::move(guess));
-  }
-  States natural;
-  for (const ContactModes& option : options) natural.push_back(option.front().state);
-  guesses.insert(guesses.begin(), natural);
-  std::set<States> tried;
-  const auto attempt = [&](const States& states) {
-    if (finder->Cancelled() || !tried.insert(states).second) return;
-    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->TryStates(states, &result->branches);
-    ++result->combinations;
+    for (const double sense : {1.0, -1.0}) {
+      const std::optional<States> states = finder->PivotFrom(guess, sense, condensed);
+      if (!states || finder->Cancelled() || !tried.insert(*states).second) continue;
+      if (condensed == nullptr || !finder->Excluded(*states, *condensed)) finder->TryStates(*states, &result->branches);
+      ++result->combinations;
+    }
   };
-  const auto pivot_from = [&](const States& guess) {
-    if (finder->Cancelled()) return;
-    for (const double sign : {1.0, -1.0})
-      if (const std::optional<States> states = finder->PivotFrom(guess, sign, condensed)) attempt(*states);
-  };
-  for (const States& guess : guesses) pivot_from(guess);
-  // Next to what was found: one contact after another in another of its states.
-  if (condensed != nullptr && result->weakly_active <= kMostRestarts) {
-    for (const States& found : std::set<States>(tried))
-      for (std::size_t i = 0; i < options.size(); ++i)
-        for (const ContactMode& other : options[i]) {
-          if (other.state == found[i]) continue;
-          States guess = found;
-          guess[i] = other.state;
-          pivot_from(guess);
-        }
-  }
+  pivot_from(std::nullopt);
+  for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
+                                       ContactState::kSlipMinus, ContactState::kClosed})
+    pivot_from(preferred);
 }
 
 // With the reactions of the point. In no order, and mirror branches are not told.
@@ -139,7 +120,6 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   // patches of a rigid surface meet, whose curvatures differ. Nodes pass from patch to patch of a deformable surface
   // all the time: then there is a problem for each combination of patches.
   std::optional<RateProblem> problem;
-  RateProblems of_patches(structure, contacts, point, natural, weakly_active, arrival.direction);
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
   const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
@@ -151,9 +131,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   const auto excluded = [&](const ContactModes& modes) {
-    const RateProblem* rates = condensed;
-    if (between_patches) rates = condenses && !between_rigid ? of_patches.On(PatchesOf(modes)) : nullptr;
-    return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
+    return !between_patches && condensed != nullptr && finder.Excluded(StatesOf(modes), *condensed);
   };
   bool solved = false;
   if (condensed != nullptr) {

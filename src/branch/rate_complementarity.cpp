@@ -87,18 +87,17 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
     given[static_cast<std::size_t>(direction)] = motion_is_given;
     return true;
   };
-  const auto at_edge = [](Role role) { return role == Role::kEdgePlus || role == Role::kEdgeMinus; };
   // First what has to be: contacts at the edge of their cones stay closed, and smooth ones bear no tangential force. A
   // contact at a node that others hold stays closed by itself, and its reaction need not change.
   // Where such a motion is of a part that nothing holds, its force holds the part, and vanishes.
   for (std::size_t k = 0; k < roles_.size(); ++k)
-    if (at_edge(roles_[k]) && !take(static_cast<Eigen::Index>(2 * k), true) &&
+    if (AtEdge(roles_[k]) && !take(static_cast<Eigen::Index>(2 * k), true) &&
         !take(static_cast<Eigen::Index>(2 * k), false))
       return std::nullopt;
   for (const bool normal : {true, false})
     for (std::size_t k = 0; k < roles_.size(); ++k) {
       const auto direction = static_cast<Eigen::Index>(2 * k + (normal ? 0 : 1));
-      if (normal && at_edge(roles_[k])) continue;
+      if (normal && AtEdge(roles_[k])) continue;
       if (!normal && roles_[k] == Role::kFrictionless) continue;
       if (!take(direction, true) && !take(direction, false)) return std::nullopt;
     }
@@ -135,90 +134,76 @@ void RateComplementarity::Build(const RateProblem& rates) {
   Eigen::MatrixXd G = lu.solve(given_columns);
   Eigen::VectorXd h = lu.solve(b);
 
-  // g = Q z + C y, z: the second variables of the pairs.
-  const auto is_given = [&](Eigen::Index d) { return (*given)[static_cast<std::size_t>(d)]; };
   for (Eigen::Index k = 0; k < count; ++k) {
     const Role role = roles_[static_cast<std::size_t>(k)];
-    const Eigen::Index n = 2 * k, t = n + 1;
-    if (role == Role::kFrictionless || role == Role::kRough)
-      pairs_.push_back({k, Inequality::kNormalReaction, is_given(n)});
-    if (role == Role::kRough) {
-      pairs_.push_back({k, Inequality::kConePlus, is_given(t)});
-      pairs_.push_back({k, Inequality::kConeMinus, true});
-    }
-    if (role == Role::kEdgePlus) pairs_.push_back({k, Inequality::kConePlus, is_given(t)});
-    if (role == Role::kEdgeMinus) pairs_.push_back({k, Inequality::kConeMinus, is_given(t)});
+    const bool normal = (*given)[static_cast<std::size_t>(2 * k)],
+               tangential = (*given)[static_cast<std::size_t>(2 * k + 1)];
+    if (!AtEdge(role)) pairs_.push_back({k, Inequality::kNormalReaction, normal});
+    if (role == Role::kRough || role == Role::kEdgePlus) pairs_.push_back({k, Inequality::kConePlus, tangential});
+    if (role == Role::kRough) pairs_.push_back({k, Inequality::kConeMinus, true});
+    if (role == Role::kEdgeMinus) pairs_.push_back({k, Inequality::kConeMinus, tangential});
   }
+
+  // The second variables of the pairs are Z z = D g + E y, so that g = (D + E G)^-1 (Z z - E h s').
   const auto num_pairs = static_cast<Eigen::Index>(pairs_.size());
-  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(size, num_pairs), C = Eigen::MatrixXd::Zero(size, size);
-  std::vector<Eigen::Index> normal_pair(static_cast<std::size_t>(count), -1);
-  bool coupled = false;
+  Eigen::MatrixXd D = Eigen::MatrixXd::Identity(size, size), Z = Eigen::MatrixXd::Zero(size, num_pairs);
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(size);
+  const auto friction = [&](const Pair& pair) {
+    return contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
+  };
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
     const Eigen::Index n = 2 * pair.contact, t = n + 1;
+    const bool given_motion = (*given)[static_cast<std::size_t>(t)];
     if (pair.force == Inequality::kNormalReaction) {
-      Q(n, p) = 1.0;
-      normal_pair[static_cast<std::size_t>(pair.contact)] = p;
-      continue;
+      Z(n, p) = 1.0;
+    } else if (given_motion || !pair.motion_is_second) {
+      Z(t, p) = pair.Sense();  // of v_t, or of r_t + sense mu r_n; z-, where r_t is given, is no share of it
     }
-    const double sense = pair.force == Inequality::kConePlus ? 1.0 : -1.0;
-    if (is_given(t)) {
-      Q(t, p) = sense;  // v_t
-      continue;
-    }
-    if (pair.motion_is_second) continue;  // z-, which is no share of the force
-    // r_t = sense (w - mu r_n)
-    const double friction =
-        contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
-    Q(t, p) = sense;
-    if (is_given(n)) {
-      C(t, n) = -sense * friction;  // r_n follows
-      coupled = true;
-    } else if (const Eigen::Index normal = normal_pair[static_cast<std::size_t>(pair.contact)]; normal >= 0) {
-      Q(t, normal) = -sense * friction;
+    if (pair.motion_is_second || pair.force == Inequality::kNormalReaction) continue;
+    const double ratio = pair.Sense() * friction(pair);
+    if ((*given)[static_cast<std::size_t>(n)]) {
+      D.row(t) += ratio * G.row(n);
+      d[t] = -ratio * h[n];
+    } else {
+      D(t, n) = ratio;
     }
   }
-  Eigen::MatrixXd Y = G * Q;
-  if (coupled) {
-    const Eigen::PartialPivLU<Eigen::MatrixXd> coupling(Eigen::MatrixXd::Identity(size, size) - G * C);
+  if (!D.isIdentity(0.0)) {
+    const Eigen::PartialPivLU<Eigen::MatrixXd> coupling(D);
     if (!(coupling.rcond() > tolerances::kSingularPivot)) return;
-    Y = coupling.solve(Y);
-    h = coupling.solve(h);
+    Z = coupling.solve(Z);
+    d = coupling.solve(d);
   }
-  Eigen::MatrixXd g = Q;
-  Eigen::VectorXd g_load = Eigen::VectorXd::Zero(size);
-  if (coupled) {
-    g += C * Y;
-    g_load = C * h;
-  }
+  Eigen::MatrixXd Y = G * Z;
+  h += G * d;
 
-  // The first variables.
+  // The first variables. Column: of z, then s'.
+  const auto row_of = [&](Eigen::Index direction, bool motion) {
+    Eigen::RowVectorXd row(num_pairs + 1);
+    if ((*given)[static_cast<std::size_t>(direction)] == motion)
+      row << Z.row(direction), d[direction];
+    else
+      row << Y.row(direction), h[direction];
+    return row;
+  };
   matrix_.resize(num_pairs, num_pairs);
   load_.resize(num_pairs);
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
     const Eigen::Index n = 2 * pair.contact, t = n + 1;
-    if (pair.force == Inequality::kNormalReaction) {
-      matrix_.row(p) = Y.row(n);
-      load_[p] = h[n];
-      continue;
-    }
-    const double sense = pair.force == Inequality::kConePlus ? 1.0 : -1.0;
-    const double friction =
-        contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
-    const Eigen::RowVectorXd rn = is_given(n) ? Y.row(n) : g.row(n);
-    const double rn_load = is_given(n) ? h[n] : g_load[n];
-    if (pair.motion_is_second) {
-      // w = mu r_n + sense r_t
-      const Eigen::RowVectorXd rt = is_given(t) ? Y.row(t) : g.row(t);
-      matrix_.row(p) = friction * rn + sense * rt;
-      load_[p] = friction * rn_load + sense * (is_given(t) ? h[t] : g_load[t]);
-    } else {
-      // z = sense v_t, and of a contact that may slide either way what it slides the other way.
-      matrix_.row(p) = sense * Y.row(t);
-      load_[p] = sense * h[t];
-      if (roles_[static_cast<std::size_t>(pair.contact)] == Role::kRough) matrix_(p, p + 1) += 1.0;
-    }
+    const bool motion = !pair.motion_is_second;
+    Eigen::RowVectorXd row;
+    if (pair.force == Inequality::kNormalReaction)
+      row = row_of(n, motion);
+    else
+      row = pair.Sense() * row_of(t, motion);
+    if (pair.force != Inequality::kNormalReaction && !motion) row += friction(pair) * row_of(n, false);
+    matrix_.row(p) = row.head(num_pairs);
+    load_[p] = row[num_pairs];
+    // Of a contact that may slide either way, z+ is v_t and what it slides the other way.
+    if (pair.force == Inequality::kConePlus && motion && roles_[static_cast<std::size_t>(pair.contact)] == Role::kRough)
+      matrix_(p, p + 1) += 1.0;
   }
   if (!matrix_.allFinite() || !load_.allFinite()) return;
   Eigen::VectorXd scale(num_pairs);

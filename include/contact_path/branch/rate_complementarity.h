@@ -49,8 +49,11 @@ class RateComplementarity {
     Eigen::Index contact;   // among the weakly active ones
     Inequality force;       // of r_n, mu r_n + r_t or mu r_n - r_t
     bool motion_is_second;  // v_n or z; otherwise the force is
+
+    double Sense() const { return force == Inequality::kConeMinus ? -1.0 : 1.0; }
   };
 
+  static bool AtEdge(Role role) { return role == Role::kEdgePlus || role == Role::kEdgeMinus; }
   bool FindRoles();
   void Build(const RateProblem& rates);
   // Of motions v = A (r + v) + b s': which of them are given, and the reactions follow; nothing: singular.

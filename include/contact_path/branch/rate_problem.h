@@ -43,12 +43,9 @@ class RateProblem {
   const Eigen::MatrixXd& GapRates() const { return gap_; }
   const Eigen::MatrixXd& SlipRates() const { return slip_; }
 
-  // The rates for these states of all candidates, up to their sign. Rates that are not unique are without rigid modes
-  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them, and
-  // where parts can move as rigid bodies: in rounding such rates may look unique.
+  // The rates for these states of all candidates, up to their sign. Nothing where they are not unique, and where parts
+  // can move as rigid bodies: in rounding such rates may look unique.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
-  // Rates(), and nothing where they are not unique.
-  std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
 
   // The first weakly active inequality that these rates, times sign, break by more than `tolerance` of the largest rate
   // of its kind; all such inequalities in `all`, if it is not null. active: which inequalities are weakly active. Both
@@ -60,13 +57,8 @@ class RateProblem {
  private:
   double Unit(Eigen::Index k) const;  // force unit of a weakly active contact
   Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
-  std::optional<CondensedRates> RatesOf(Eigen::VectorXd z) const;
   // Whether a rigid motion of parts that only weakly active contacts may hold is free in these states.
   bool LeavesRigidMotion(const std::vector<ContactState>& states) const;
-  // Columns span the solutions of equations . z = 0; they are not scaled.
-  Eigen::MatrixXd Kernel(const Eigen::MatrixXd& equations) const;
-  // Of a kernel of several columns, not scaled; empty where it cannot be told.
-  Eigen::VectorXd ShortestMember(const Eigen::MatrixXd& kernel) const;
 
   const ContactPairs& contacts_;
   const PathPoint& point_;
