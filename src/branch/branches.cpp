@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -130,8 +131,17 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   if (condenses && (!between_patches || (!few_enough && !between_rigid)))
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
+  // Curvatures of patches differ.
+  std::map<std::vector<int>, const RateProblem> on_patches;
   const auto excluded = [&](const ContactModes& modes) {
-    return !between_patches && condensed != nullptr && finder.Excluded(StatesOf(modes), *condensed);
+    if (!between_patches) return condensed != nullptr && finder.Excluded(StatesOf(modes), *condensed);
+    if (!condenses || between_rigid) return false;
+    PathPoint there = point;
+    there.patches = PatchesOf(modes);
+    const RateProblem& rates =
+        on_patches.try_emplace(there.patches, structure, contacts, there, natural, weakly_active, arrival.direction)
+            .first->second;
+    return rates.regular() && finder.Excluded(StatesOf(modes), rates);
   };
   bool solved = false;
   if (condensed != nullptr) {

@@ -61,7 +61,7 @@ class RateProblem {
   bool LeavesRigidMotion(const std::vector<ContactState>& states) const;
 
   const ContactPairs& contacts_;
-  const PathPoint& point_;
+  const PathPoint point_;
   std::vector<int> weakly_active_;
   bool regular_ = false;
   // Rows: weakly_active contacts; columns: ds, then the normal and tangential force of each weakly_active contact,
