@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -65,12 +66,10 @@ bool RateComplementarity::FindRoles() {
     if (contact.HasTotalLaw()) return false;
     if (Has(modes, ContactState::kOpen))
       roles_.push_back(contact.Frictional() ? Role::kRough : Role::kFrictionless);
-    else if (!contact.Frictional())
-      return false;  // it bears a force where patches meet: one state, and no pair
-    else if (Has(modes, ContactState::kSlipPlus))
-      roles_.push_back(Role::kEdgePlus);
+    else if (Has(modes, ContactState::kSlipPlus) == Has(modes, ContactState::kSlipMinus))
+      return false;  // no pair: a smooth contact where patches meet, or a cone as narrow as rounding
     else
-      roles_.push_back(Role::kEdgeMinus);
+      roles_.push_back(Has(modes, ContactState::kSlipPlus) ? Role::kEdgePlus : Role::kEdgeMinus);
   }
   return true;
 }
@@ -87,24 +86,17 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
     given[static_cast<std::size_t>(direction)] = motion_is_given;
     return true;
   };
-  // First what has to be: contacts at the edge of their cones stay closed, and smooth ones bear no tangential force. A
-  // contact at a node that others hold stays closed by itself, and its reaction need not change.
-  // Where such a motion is of a part that nothing holds, its force holds the part, and vanishes.
-  for (std::size_t k = 0; k < roles_.size(); ++k)
-    if (AtEdge(roles_[k]) && !take(static_cast<Eigen::Index>(2 * k), true) &&
-        !take(static_cast<Eigen::Index>(2 * k), false))
-      return std::nullopt;
-  for (const bool normal : {true, false})
-    for (std::size_t k = 0; k < roles_.size(); ++k) {
-      const auto direction = static_cast<Eigen::Index>(2 * k + (normal ? 0 : 1));
-      if (normal && AtEdge(roles_[k])) continue;
-      if (!normal && roles_[k] == Role::kFrictionless) continue;
-      if (!take(direction, true) && !take(direction, false)) return std::nullopt;
-    }
+  // First what has to be: contacts at the edge of their cones stay closed, and at last smooth ones bear no tangential
+  // force. A contact at a node that others hold stays closed by itself, and its reaction need not change. Where such a
+  // motion is of a part that nothing holds, its force holds the part, and vanishes.
+  std::array<std::vector<Eigen::Index>, 4> in_turn;
   for (std::size_t k = 0; k < roles_.size(); ++k) {
-    const auto direction = static_cast<Eigen::Index>(2 * k + 1);
-    if (roles_[k] == Role::kFrictionless && !take(direction, false) && !take(direction, true)) return std::nullopt;
+    in_turn[AtEdge(roles_[k]) ? 0 : 1].push_back(static_cast<Eigen::Index>(2 * k));
+    in_turn[roles_[k] == Role::kFrictionless ? 3 : 2].push_back(static_cast<Eigen::Index>(2 * k + 1));
   }
+  for (std::size_t turn = 0; turn < in_turn.size(); ++turn)
+    for (const Eigen::Index direction : in_turn[turn])
+      if (!take(direction, turn < 3) && !take(direction, turn == 3)) return std::nullopt;
   return given;
 }
 
