@@ -29,6 +29,15 @@ bool SameReactions(const Branch& branch, const Branch& other) {
 
 }  // namespace
 
+double ReactionNorm(const ContactPairs& contacts, const PathPoint& point) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    sum += (point.rn[k] * point.rn[k] + point.rt[k] * point.rt[k]) / std::pow(contacts[i]->ForceUnit(), 2);
+  }
+  return std::sqrt(sum);
+}
+
 ContactModes ModesWith(const std::vector<ContactState>& states, const std::vector<ContactModes>& options,
                        const PathPoint& point) {
   ContactModes modes;
@@ -112,9 +121,7 @@ std::optional<BranchFinder::States> BranchFinder::PivotFrom(States states, doubl
       // By the total law of friction a contact that closes may have slipped, and cannot stick.
       const ContactModes& modes = options_[i];
       const auto touches = [](const ContactMode& mode) { return mode.state != ContactState::kOpen; };
-      if (states[i] == ContactState::kStick && std::none_of(modes.begin(), modes.end(), [](const ContactMode& mode) {
-            return mode.state == ContactState::kStick;
-          }))
+      if (states[i] == ContactState::kStick && !HasState(modes, ContactState::kStick))
         states[i] = std::find_if(modes.begin(), modes.end(), touches)->state;
     }
   }
@@ -284,16 +291,6 @@ int BranchFinder::IdleSlips(const Branch& branch) const {
   return idle;
 }
 
-double BranchFinder::ReactionRate(const Eigen::VectorXd& first) const {
-  const PathPoint rates = system_.Unpack(first);
-  double sum = 0.0;
-  for (const std::size_t i : system_.Touching()) {
-    const auto k = static_cast<Eigen::Index>(i);
-    sum += (rates.rn[k] * rates.rn[k] + rates.rt[k] * rates.rt[k]) / std::pow(contacts_[i]->ForceUnit(), 2);
-  }
-  return std::sqrt(sum);
-}
-
 bool BranchFinder::IsPlainer(const Branch& branch, const Branch& other) const {
   const int idle = IdleSlips(branch), others = IdleSlips(other);
   if (idle != others) return idle < others;
@@ -314,7 +311,7 @@ void BranchFinder::Add(const Tangents& tangents, const Eigen::VectorXd& first, c
   branch.load_rate = first[NumMotion() - 1];
   branch.dissipation_rate = DissipationRate(contacts_, branch.states, point_, branch.direction);
   branch.turn = AngleTo(arrival_.direction, branch.direction);
-  branch.reaction_rate = ReactionRate(first);
+  branch.reaction_rate = ReactionNorm(contacts_, system_.Unpack(first));
   branch.deviation = arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
   for (Branch& other : *branches) {
     if ((other.direction - branch.direction).norm() >= tolerances::kSameDirection) continue;

@@ -18,6 +18,9 @@
 
 namespace contact_path {
 
+// Of the reactions of a point, or of their rates, each in its force unit.
+double ReactionNorm(const ContactPairs& contacts, const PathPoint& point);
+
 // The modes with these states: the first options of each candidate that have them.
 ContactModes ModesWith(const std::vector<ContactState>& states, const std::vector<ContactModes>& options,
                        const PathPoint& point);
@@ -100,7 +103,6 @@ class BranchFinder {
 
   // Contacts that slip by name but do not move.
   int IdleSlips(const Branch& branch) const;
-  double ReactionRate(const Eigen::VectorXd& first) const;
   // Of two branches with one direction of motion: whether the first is to be kept. Walls that hold a node have several
   // states that do; those with the least reactions are kept, whatever the order of the contacts, and whichever way the
   // tangents of the walls point.

@@ -75,9 +75,7 @@ void TryLikely(const Options& options, const RateProblem* condensed, BranchFinde
   const auto pivot_from = [&](const std::optional<ContactState>& preferred) {
     States guess;
     for (const ContactModes& option : options) {
-      const bool has =
-          std::any_of(option.begin(), option.end(), [&](const ContactMode& mode) { return mode.state == preferred; });
-      guess.push_back(has ? *preferred : option.front().state);
+      guess.push_back(preferred && HasState(option, *preferred) ? *preferred : option.front().state);
     }
     for (const double sense : {1.0, -1.0}) {
       const std::optional<States> states = finder->PivotFrom(guess, sense, condensed);
@@ -173,22 +171,6 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
 
 bool GoesOn(const Branch& branch) { return std::cos(branch.deviation) > tolerances::kRate; }
 
-// The sum of the squares of all reactions, each in its force unit.
-double SquaredReactions(const ContactPairs& contacts, const PathPoint& point) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    sum += (point.rn[k] * point.rn[k] + point.rt[k] * point.rt[k]) / std::pow(contacts[i]->ForceUnit(), 2);
-  }
-  return sum;
-}
-
-// Of the branches of two lists together.
-Completeness BothComplete(Completeness a, Completeness b) {
-  if (a == Completeness::kNone || b == Completeness::kNone) return Completeness::kNone;
-  return a == b ? a : Completeness::kAllCombinations;
-}
-
 // A branch that needs no change of reactions comes before one in the same direction that does. Of several changes, the
 // least reactions are kept: a choice that neither the order nor the tangents of the contacts decide.
 void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint& begin, BranchSet* result) {
@@ -201,11 +183,11 @@ void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint
     if (known == result->branches.end())
       result->branches.push_back(std::move(branch));
     else if (known->begin &&
-             SquaredReactions(contacts, begin) < (1.0 - tolerances::kRate) * SquaredReactions(contacts, *known->begin))
+             ReactionNorm(contacts, begin) < (1.0 - tolerances::kRate) * ReactionNorm(contacts, *known->begin))
       *known = std::move(branch);
   }
   result->weakly_active = std::max(result->weakly_active, others.weakly_active);
-  result->complete_by = BothComplete(result->complete_by, others.complete_by);
+  result->complete_by = std::min(result->complete_by, others.complete_by);
   result->cancelled = result->cancelled || others.cancelled;
   result->combinations += others.combinations;
   result->rigid_modes = std::max(result->rigid_modes, others.rigid_modes);

@@ -72,7 +72,6 @@ class Tableau {
   }
 
   Eigen::Index Basic(Eigen::Index row) const { return basic_[static_cast<std::size_t>(row)]; }
-  double Value(Eigen::Index row) const { return right_[row]; }
   const Eigen::VectorXd& Values() const { return right_; }
 
  private:

@@ -46,10 +46,6 @@ class IndependentColumns {
   std::vector<Eigen::VectorXd> factors_;
 };
 
-bool Has(const ContactModes& modes, ContactState state) {
-  return std::any_of(modes.begin(), modes.end(), [state](const ContactMode& mode) { return mode.state == state; });
-}
-
 }  // namespace
 
 RateComplementarity::RateComplementarity(const ContactPairs& contacts, const RateProblem& rates,
@@ -64,12 +60,12 @@ bool RateComplementarity::FindRoles() {
     const ContactPair& contact = *contacts_[static_cast<std::size_t>(i)];
     const ContactModes& modes = options_[static_cast<std::size_t>(i)];
     if (contact.HasTotalLaw()) return false;
-    if (Has(modes, ContactState::kOpen))
+    if (HasState(modes, ContactState::kOpen))
       roles_.push_back(contact.Frictional() ? Role::kRough : Role::kFrictionless);
-    else if (Has(modes, ContactState::kSlipPlus) == Has(modes, ContactState::kSlipMinus))
+    else if (HasState(modes, ContactState::kSlipPlus) == HasState(modes, ContactState::kSlipMinus))
       return false;  // no pair: a smooth contact where patches meet, or a cone as narrow as rounding
     else
-      roles_.push_back(Has(modes, ContactState::kSlipPlus) ? Role::kEdgePlus : Role::kEdgeMinus);
+      roles_.push_back(HasState(modes, ContactState::kSlipPlus) ? Role::kEdgePlus : Role::kEdgeMinus);
   }
   return true;
 }

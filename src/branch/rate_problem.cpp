@@ -187,7 +187,6 @@ std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>
   z /= norm;
   CondensedRates rates;
   rates.load = z[0];
-  rates.along = along_.dot(z);
   rates.gap = gap_ * z;
   rates.slip = slip_ * z;
   rates.rn.resize(count);

@@ -131,7 +131,7 @@ TEST_F(NodeOnADisc, RatesAtAnEventAreThoseOfTheClosedForm) {
   ASSERT_TRUE(problem.regular());
   const std::optional<CondensedRates> rates = problem.Rates({ContactState::kSlipPlus, ContactState::kOpen});
   ASSERT_TRUE(rates);
-  const double sign = rates->along < 0.0 ? -1.0 : 1.0, speed = rate.head<3>().norm();
+  const double sign = rates->slip[0] < 0.0 ? -1.0 : 1.0, speed = rate.head<3>().norm();
   EXPECT_NEAR(sign * rates->load, rate[2] / speed, 1e-7);
   EXPECT_NEAR(sign * rates->slip[0], 1.0 / speed, 1e-7);
   EXPECT_NEAR(sign * rates->rn[0], rate[3] / speed, 1e-7);

@@ -51,11 +51,11 @@ struct Arrival {
   std::optional<Constraint> failed;
 };
 
-// Why a list of branches has all branches.
+// Why a list of branches has all branches. Of two lists together: the smaller one.
 enum class Completeness {
   kNone,             // it may not have: too many combinations of states to try them all, the likely ones were
-  kOnlySolution,     // the rates have one solution for each sense of the load (rate_complementarity.h)
   kAllCombinations,  // all combinations of states were tried
+  kOnlySolution,     // the rates have one solution for each sense of the load (rate_complementarity.h)
 };
 
 // "", "only_solution", "all_combinations".

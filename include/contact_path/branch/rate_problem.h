@@ -17,7 +17,6 @@ namespace contact_path {
 // Rates by arc length |(du, ds)|, of one combination of states. By weakly_active contact, in their order.
 struct CondensedRates {
   double load = 0.0;     // ds
-  double along = 0.0;    // cosine to the direction of arrival
   Eigen::VectorXd gap;   // du_n
   Eigen::VectorXd slip;  // du_t
   Eigen::VectorXd rn;
