@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 
 #include "branch/branch_finder.h"
-#include "branch/rate_problems.h"
 #include "contact_path/branch/branch_order.h"
 #include "contact_path/branch/rate_complementarity.h"
 #include "contact_path/branch/rate_problem.h"
@@ -22,10 +22,9 @@ namespace {
 constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 512;  // of more, dense equations take longer than the sparse ones of all
-constexpr int kGuesses = 3;                   // of the complementarity problem where its solution may not be unique
-constexpr int kMostRestarts = 64;             // contacts, one after another in another state, to pivot from
-constexpr double kMostCombinations = 4096.0;  // 4^6
-constexpr double kMostIfNone = 65536.0;       // 4^8: tried before the path is said to end
+constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
+constexpr double kMostCombinations = 4096.0;         // 4^6
+constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
 using States = BranchFinder::States;
 using Options = BranchFinder::Options;
@@ -50,59 +49,45 @@ void TryAll(const Options& options, const std::function<bool(const ContactModes&
   }
 }
 
-// The solutions of the complementarity problem of the rates, each tried like any other combination.
-void TrySolutions(const RateComplementarity& problem, BranchFinder* finder, BranchSet* result) {
-  std::set<States> tried;
-  for (int guess = 0; guess < (problem.unique() ? 1 : kGuesses); ++guess)
-    for (const double sense : {1.0, -1.0}) {
-      if (finder->Cancelled()) return;
-      const std::optional<States> states = problem.Solve(sense, guess);
-      if (!states || !tried.insert(*states).second) continue;
-      finder->TryStates(*states, &result->branches);
+// The solutions of the complementarity problem of the rates, for both senses of the load. Whether they settle both: a
+// direction leads on, or is the branch of arrival; at a start the sense that is not wanted settles itself. Where the
+// solution is not known to exist, a sense for which none is found counts as settled, too.
+bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, BranchFinder* finder, BranchSet* result) {
+  bool both = true;
+  for (const double sense : {1.0, -1.0}) {
+    if (finder->Cancelled()) return true;
+    if (arrival.is_start && sense * arrival.direction[arrival.direction.size() - 1] < 0.0) continue;
+    const std::vector<RateSolution> solutions = problem.Solve(sense);
+    bool settled = solutions.empty() && !problem.unique();
+    for (const RateSolution& solution : solutions) {
+      settled = finder->TrySolution(solution.states, solution.degenerate, sense, &result->branches) || settled;
       ++result->combinations;
     }
+    both = both && settled;
+  }
+  return both;
 }
 
-// Where there are too many combinations: principal pivoting from several first guesses.
-// Each result is tried like any other combination.
+// Where there are too many combinations: principal pivoting from the states of now, and from as many contacts as may be
+// in each of the states. Each result is tried like any other combination.
 void TryLikely(const Options& options, const RateProblem* condensed, BranchFinder* finder, BranchSet* result) {
-  std::vector<States> guesses;
-  for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
-                                       ContactState::kSlipMinus, ContactState::kClosed}) {
+  std::set<States> tried;
+  const auto pivot_from = [&](const std::optional<ContactState>& preferred) {
     States guess;
     for (const ContactModes& option : options) {
-      const bool has =
-          std::any_of(option.begin(), option.end(), [&](const ContactMode& mode) { return mode.state == preferred; });
-      guess.push_back(has ? preferred : option.front().state);
+      guess.push_back(preferred && HasState(option, *preferred) ? *preferred : option.front().state);
     }
-    guesses.push_back(std::move(guess));
-  }
-  States natural;
-  for (const ContactModes& option : options) natural.push_back(option.front().state);
-  guesses.insert(guesses.begin(), natural);
-  std::set<States> tried;
-  const auto attempt = [&](const States& states) {
-    if (finder->Cancelled() || !tried.insert(states).second) return;
-    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->TryStates(states, &result->branches);
-    ++result->combinations;
+    for (const double sense : {1.0, -1.0}) {
+      const std::optional<States> states = finder->PivotFrom(guess, sense, condensed);
+      if (!states || finder->Cancelled() || !tried.insert(*states).second) continue;
+      if (condensed == nullptr || !finder->Excluded(*states, *condensed)) finder->TryStates(*states, &result->branches);
+      ++result->combinations;
+    }
   };
-  const auto pivot_from = [&](const States& guess) {
-    if (finder->Cancelled()) return;
-    for (const double sign : {1.0, -1.0})
-      if (const std::optional<States> states = finder->PivotFrom(guess, sign, condensed)) attempt(*states);
-  };
-  for (const States& guess : guesses) pivot_from(guess);
-  // Next to what was found: one contact after another in another of its states.
-  if (condensed != nullptr && result->weakly_active <= kMostRestarts) {
-    for (const States& found : std::set<States>(tried))
-      for (std::size_t i = 0; i < options.size(); ++i)
-        for (const ContactMode& other : options[i]) {
-          if (other.state == found[i]) continue;
-          States guess = found;
-          guess[i] = other.state;
-          pivot_from(guess);
-        }
-  }
+  pivot_from(std::nullopt);
+  for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
+                                       ContactState::kSlipMinus, ContactState::kClosed})
+    pivot_from(preferred);
 }
 
 // With the reactions of the point. In no order, and mirror branches are not told.
@@ -134,7 +119,6 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   // patches of a rigid surface meet, whose curvatures differ. Nodes pass from patch to patch of a deformable surface
   // all the time: then there is a problem for each combination of patches.
   std::optional<RateProblem> problem;
-  RateProblems of_patches(structure, contacts, point, natural, weakly_active, arrival.direction);
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
   const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
@@ -145,19 +129,25 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   if (condenses && (!between_patches || (!few_enough && !between_rigid)))
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
+  // Curvatures of patches differ.
+  std::map<std::vector<int>, const RateProblem> on_patches;
   const auto excluded = [&](const ContactModes& modes) {
-    const RateProblem* rates = condensed;
-    if (between_patches) rates = condenses && !between_rigid ? of_patches.On(PatchesOf(modes)) : nullptr;
-    return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
+    if (!between_patches) return condensed != nullptr && finder.Excluded(StatesOf(modes), *condensed);
+    if (!condenses || between_rigid) return false;
+    PathPoint there = point;
+    there.patches = PatchesOf(modes);
+    const RateProblem& rates =
+        on_patches.try_emplace(there.patches, structure, contacts, there, natural, weakly_active, arrival.direction)
+            .first->second;
+    return rates.regular() && finder.Excluded(StatesOf(modes), rates);
   };
   bool solved = false;
   if (condensed != nullptr) {
     const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
     const bool unique = complementarity.unique() && !between_patches;
     if (complementarity.exists() && (unique || !few_enough)) {
-      TrySolutions(complementarity, &finder, &result);
+      solved = TrySolutions(complementarity, arrival, &finder, &result) && !result.branches.empty();
       finder.TryOtherStatesAtNodes(&result.branches);
-      solved = !result.branches.empty();
       result.complete_by = unique ? Completeness::kOnlySolution : Completeness::kNone;
     }
   }
@@ -181,22 +171,6 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
 
 bool GoesOn(const Branch& branch) { return std::cos(branch.deviation) > tolerances::kRate; }
 
-// The sum of the squares of all reactions, each in its force unit.
-double SquaredReactions(const ContactPairs& contacts, const PathPoint& point) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    sum += (point.rn[k] * point.rn[k] + point.rt[k] * point.rt[k]) / std::pow(contacts[i]->ForceUnit(), 2);
-  }
-  return sum;
-}
-
-// Of the branches of two lists together.
-Completeness BothComplete(Completeness a, Completeness b) {
-  if (a == Completeness::kNone || b == Completeness::kNone) return Completeness::kNone;
-  return a == b ? a : Completeness::kAllCombinations;
-}
-
 // A branch that needs no change of reactions comes before one in the same direction that does. Of several changes, the
 // least reactions are kept: a choice that neither the order nor the tangents of the contacts decide.
 void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint& begin, BranchSet* result) {
@@ -209,11 +183,11 @@ void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint
     if (known == result->branches.end())
       result->branches.push_back(std::move(branch));
     else if (known->begin &&
-             SquaredReactions(contacts, begin) < (1.0 - tolerances::kRate) * SquaredReactions(contacts, *known->begin))
+             ReactionNorm(contacts, begin) < (1.0 - tolerances::kRate) * ReactionNorm(contacts, *known->begin))
       *known = std::move(branch);
   }
   result->weakly_active = std::max(result->weakly_active, others.weakly_active);
-  result->complete_by = BothComplete(result->complete_by, others.complete_by);
+  result->complete_by = std::min(result->complete_by, others.complete_by);
   result->cancelled = result->cancelled || others.cancelled;
   result->combinations += others.combinations;
   result->rigid_modes = std::max(result->rigid_modes, others.rigid_modes);

@@ -1,16 +1,21 @@
 #include "contact_path/branch/complementarity.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
+#include "contact_path/equations/measured.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
 constexpr Eigen::Index kPivotsPerVariable = 20;
+constexpr double kUneven = 16.0;
 constexpr double kTie = 1e-9;  // of the largest entry of q: q is changed by less, each entry by another share
 
 // basic = T nonbasic + right, and the exchange of a basic variable with another one.
@@ -67,7 +72,6 @@ class Tableau {
   }
 
   Eigen::Index Basic(Eigen::Index row) const { return basic_[static_cast<std::size_t>(row)]; }
-  double Value(Eigen::Index row) const { return right_[row]; }
   const Eigen::VectorXd& Values() const { return right_; }
 
  private:
@@ -77,8 +81,8 @@ class Tableau {
   std::vector<Eigen::Index> basic_, nonbasic_;
 };
 
-}  // namespace
-
+// By Lemke's method with the covering vector `cover` > 0: which z are basic. Nothing where it ends on a ray, or the
+// pivots are lost in rounding.
 std::optional<std::vector<bool>> SolveByLemke(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
                                               const Eigen::VectorXd& cover) {
   const Eigen::Index n = M.rows();
@@ -109,6 +113,56 @@ std::optional<std::vector<bool>> SolveByLemke(const Eigen::MatrixXd& M, const Ei
     return basic;
   }
   return std::nullopt;
+}
+
+// Which of the basic variables of this basis are zero. Nothing: one is negative, and the pivots were lost in rounding.
+std::optional<ComplementaritySolution> Measure(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
+                                               std::vector<bool> second) {
+  const Eigen::Index n = M.rows();
+  ComplementaritySolution solution{std::move(second), {}};
+  // z of the pairs in `second`, w of the others: M_zz z = -q, w - M_wz z = q.
+  Eigen::MatrixXd equations = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index p = 0; p < n; ++p)
+    if (solution.second[static_cast<std::size_t>(p)]) equations.col(p) = -M.col(p);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(equations);
+  const Eigen::VectorXd values = lu.solve(q);
+  // q is known to the tolerance of rates.
+  const double error = (tolerances::kRate + tolerances::kLastDigits / lu.rcond()) *
+                       std::max(values.lpNorm<Eigen::Infinity>(), q.lpNorm<Eigen::Infinity>());
+  for (Eigen::Index p = 0; p < n; ++p) {
+    const int sign = Measured{values[p], error}.Sign();
+    if (sign < 0) return std::nullopt;
+    if (sign == 0) solution.degenerate.push_back(p);
+  }
+  return solution;
+}
+
+}  // namespace
+
+ComplementaritySolutions SolveComplementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
+  const Eigen::Index n = M.rows();
+  ComplementaritySolutions solutions;
+  solutions.only = HasOneSolutionForEach(M);
+  const auto note = [&](std::optional<std::vector<bool>> second) {
+    if (!second) return;
+    std::optional<ComplementaritySolution> solution = Measure(M, q, *std::move(second));
+    const auto same = [&](const ComplementaritySolution& other) { return other.second == solution->second; };
+    if (solution && std::none_of(solutions.list.begin(), solutions.list.end(), same))
+      solutions.list.push_back(*std::move(solution));
+  };
+  note(SolveByLemke(M, q, Eigen::VectorXd::Ones(n)));
+  if (solutions.only) return solutions;
+  // Other ways lead to other solutions, where there are several: the variables covered in other shares, and the two of
+  // each pair exchanged, z = M^-1 w - M^-1 q.
+  Eigen::VectorXd uneven(n);
+  for (Eigen::Index p = 0; p < n; ++p) uneven[p] = p % 2 == 0 ? 1.0 : kUneven;
+  note(SolveByLemke(M, q, uneven));
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(M);
+  if (!(lu.rcond() > tolerances::kSingularPivot)) return solutions;
+  std::optional<std::vector<bool>> first = SolveByLemke(lu.inverse(), -lu.solve(q), Eigen::VectorXd::Ones(n));
+  if (first) first->flip();
+  note(std::move(first));
+  return solutions;
 }
 
 bool HasOneSolutionForEach(const Eigen::MatrixXd& M) {

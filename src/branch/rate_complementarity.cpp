@@ -2,10 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "contact_path/branch/complementarity.h"
+#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -44,33 +46,26 @@ class IndependentColumns {
   std::vector<Eigen::VectorXd> factors_;
 };
 
-bool Has(const ContactModes& modes, ContactState state) {
-  return std::any_of(modes.begin(), modes.end(), [state](const ContactMode& mode) { return mode.state == state; });
-}
-
 }  // namespace
 
 RateComplementarity::RateComplementarity(const ContactPairs& contacts, const RateProblem& rates,
                                          const std::vector<ContactModes>& options,
                                          const std::vector<int>& weakly_active)
-    : options_(options), weakly_active_(weakly_active) {
-  if (!rates.regular() || !FindRoles(contacts)) return;
-  Build(contacts, rates);
+    : contacts_(contacts), options_(options), weakly_active_(weakly_active) {
+  if (rates.regular() && FindRoles()) Build(rates);
 }
 
-bool RateComplementarity::FindRoles(const ContactPairs& contacts) {
+bool RateComplementarity::FindRoles() {
   for (const int i : weakly_active_) {
-    const ContactPair& contact = *contacts[static_cast<std::size_t>(i)];
+    const ContactPair& contact = *contacts_[static_cast<std::size_t>(i)];
     const ContactModes& modes = options_[static_cast<std::size_t>(i)];
     if (contact.HasTotalLaw()) return false;
-    if (Has(modes, ContactState::kOpen))
+    if (HasState(modes, ContactState::kOpen))
       roles_.push_back(contact.Frictional() ? Role::kRough : Role::kFrictionless);
-    else if (!contact.Frictional())
-      return false;  // it bears a force where patches meet: one state, and no pair
-    else if (Has(modes, ContactState::kSlipPlus))
-      roles_.push_back(Role::kEdgePlus);
+    else if (HasState(modes, ContactState::kSlipPlus) == HasState(modes, ContactState::kSlipMinus))
+      return false;  // no pair: a smooth contact where patches meet, or a cone as narrow as rounding
     else
-      roles_.push_back(Role::kEdgeMinus);
+      roles_.push_back(HasState(modes, ContactState::kSlipPlus) ? Role::kEdgePlus : Role::kEdgeMinus);
   }
   return true;
 }
@@ -87,29 +82,21 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
     given[static_cast<std::size_t>(direction)] = motion_is_given;
     return true;
   };
-  const auto at_edge = [](Role role) { return role == Role::kEdgePlus || role == Role::kEdgeMinus; };
-  // First what has to be: contacts at the edge of their cones stay closed, and smooth ones bear no tangential force. A
-  // contact at a node that others hold stays closed by itself, and its reaction need not change.
-  // Where such a motion is of a part that nothing holds, its force holds the part, and vanishes.
-  for (std::size_t k = 0; k < roles_.size(); ++k)
-    if (at_edge(roles_[k]) && !take(static_cast<Eigen::Index>(2 * k), true) &&
-        !take(static_cast<Eigen::Index>(2 * k), false))
-      return std::nullopt;
-  for (const bool normal : {true, false})
-    for (std::size_t k = 0; k < roles_.size(); ++k) {
-      const auto direction = static_cast<Eigen::Index>(2 * k + (normal ? 0 : 1));
-      if (normal && at_edge(roles_[k])) continue;
-      if (!normal && roles_[k] == Role::kFrictionless) continue;
-      if (!take(direction, true) && !take(direction, false)) return std::nullopt;
-    }
+  // First what has to be: contacts at the edge of their cones stay closed, and at last smooth ones bear no tangential
+  // force. A contact at a node that others hold stays closed by itself, and its reaction need not change. Where such a
+  // motion is of a part that nothing holds, its force holds the part, and vanishes.
+  std::array<std::vector<Eigen::Index>, 4> in_turn;
   for (std::size_t k = 0; k < roles_.size(); ++k) {
-    const auto direction = static_cast<Eigen::Index>(2 * k + 1);
-    if (roles_[k] == Role::kFrictionless && !take(direction, false) && !take(direction, true)) return std::nullopt;
+    in_turn[AtEdge(roles_[k]) ? 0 : 1].push_back(static_cast<Eigen::Index>(2 * k));
+    in_turn[roles_[k] == Role::kFrictionless ? 3 : 2].push_back(static_cast<Eigen::Index>(2 * k + 1));
   }
+  for (std::size_t turn = 0; turn < in_turn.size(); ++turn)
+    for (const Eigen::Index direction : in_turn[turn])
+      if (!take(direction, turn < 3) && !take(direction, turn == 3)) return std::nullopt;
   return given;
 }
 
-void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem& rates) {
+void RateComplementarity::Build(const RateProblem& rates) {
   const auto count = static_cast<Eigen::Index>(roles_.size()), size = 2 * count;
   // v = A (r + v) + b s': springs of stiffness 1 are part of the condensed problem.
   Eigen::MatrixXd A(size, size);
@@ -135,89 +122,76 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
   Eigen::MatrixXd G = lu.solve(given_columns);
   Eigen::VectorXd h = lu.solve(b);
 
-  // g = Q z + C y, z: the second variables of the pairs.
-  const auto is_given = [&](Eigen::Index d) { return (*given)[static_cast<std::size_t>(d)]; };
   for (Eigen::Index k = 0; k < count; ++k) {
     const Role role = roles_[static_cast<std::size_t>(k)];
-    const Eigen::Index n = 2 * k, t = n + 1;
-    if (role == Role::kFrictionless || role == Role::kRough) pairs_.push_back({k, Pair::Kind::kNormal, is_given(n)});
-    if (role == Role::kRough) {
-      pairs_.push_back({k, Pair::Kind::kPlus, is_given(t)});
-      pairs_.push_back({k, Pair::Kind::kMinus, true});
-    }
-    if (role == Role::kEdgePlus) pairs_.push_back({k, Pair::Kind::kPlus, is_given(t)});
-    if (role == Role::kEdgeMinus) pairs_.push_back({k, Pair::Kind::kMinus, is_given(t)});
+    const bool normal = (*given)[static_cast<std::size_t>(2 * k)],
+               tangential = (*given)[static_cast<std::size_t>(2 * k + 1)];
+    if (!AtEdge(role)) pairs_.push_back({k, Inequality::kNormalReaction, normal});
+    if (role == Role::kRough || role == Role::kEdgePlus) pairs_.push_back({k, Inequality::kConePlus, tangential});
+    if (role == Role::kRough) pairs_.push_back({k, Inequality::kConeMinus, true});
+    if (role == Role::kEdgeMinus) pairs_.push_back({k, Inequality::kConeMinus, tangential});
   }
+
+  // The second variables of the pairs are Z z = D g + E y, so that g = (D + E G)^-1 (Z z - E h s').
   const auto num_pairs = static_cast<Eigen::Index>(pairs_.size());
-  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(size, num_pairs), C = Eigen::MatrixXd::Zero(size, size);
-  std::vector<Eigen::Index> normal_pair(static_cast<std::size_t>(count), -1);
-  bool coupled = false;
+  Eigen::MatrixXd D = Eigen::MatrixXd::Identity(size, size), Z = Eigen::MatrixXd::Zero(size, num_pairs);
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(size);
+  const auto friction = [&](const Pair& pair) {
+    return contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
+  };
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
     const Eigen::Index n = 2 * pair.contact, t = n + 1;
-    if (pair.kind == Pair::Kind::kNormal) {
-      Q(n, p) = 1.0;
-      normal_pair[static_cast<std::size_t>(pair.contact)] = p;
-      continue;
+    const bool given_motion = (*given)[static_cast<std::size_t>(t)];
+    if (pair.force == Inequality::kNormalReaction) {
+      Z(n, p) = 1.0;
+    } else if (given_motion || !pair.motion_is_second) {
+      Z(t, p) = pair.Sense();  // of v_t, or of r_t + sense mu r_n; z-, where r_t is given, is no share of it
     }
-    const double sense = pair.kind == Pair::Kind::kPlus ? 1.0 : -1.0;
-    if (is_given(t)) {
-      Q(t, p) = sense;  // v_t
-      continue;
-    }
-    if (pair.motion_is_second) continue;  // z-, which is no share of the force
-    // r_t = sense (w - mu r_n)
-    const double friction =
-        contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
-    Q(t, p) = sense;
-    if (is_given(n)) {
-      C(t, n) = -sense * friction;  // r_n follows
-      coupled = true;
-    } else if (const Eigen::Index normal = normal_pair[static_cast<std::size_t>(pair.contact)]; normal >= 0) {
-      Q(t, normal) = -sense * friction;
+    if (pair.motion_is_second || pair.force == Inequality::kNormalReaction) continue;
+    const double ratio = pair.Sense() * friction(pair);
+    if ((*given)[static_cast<std::size_t>(n)]) {
+      D.row(t) += ratio * G.row(n);
+      d[t] = -ratio * h[n];
+    } else {
+      D(t, n) = ratio;
     }
   }
-  Eigen::MatrixXd Y = G * Q;
-  if (coupled) {
-    const Eigen::PartialPivLU<Eigen::MatrixXd> coupling(Eigen::MatrixXd::Identity(size, size) - G * C);
+  if (!D.isIdentity(0.0)) {
+    const Eigen::PartialPivLU<Eigen::MatrixXd> coupling(D);
     if (!(coupling.rcond() > tolerances::kSingularPivot)) return;
-    Y = coupling.solve(Y);
-    h = coupling.solve(h);
+    Z = coupling.solve(Z);
+    d = coupling.solve(d);
   }
-  Eigen::MatrixXd g = Q;
-  Eigen::VectorXd g_load = Eigen::VectorXd::Zero(size);
-  if (coupled) {
-    g += C * Y;
-    g_load = C * h;
-  }
+  Eigen::MatrixXd Y = G * Z;
+  h += G * d;
 
-  // The first variables.
+  // The first variables. Column: of z, then s'.
+  const auto row_of = [&](Eigen::Index direction, bool motion) {
+    Eigen::RowVectorXd row(num_pairs + 1);
+    if ((*given)[static_cast<std::size_t>(direction)] == motion)
+      row << Z.row(direction), d[direction];
+    else
+      row << Y.row(direction), h[direction];
+    return row;
+  };
   matrix_.resize(num_pairs, num_pairs);
   load_.resize(num_pairs);
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
     const Eigen::Index n = 2 * pair.contact, t = n + 1;
-    if (pair.kind == Pair::Kind::kNormal) {
-      matrix_.row(p) = Y.row(n);
-      load_[p] = h[n];
-      continue;
-    }
-    const double sense = pair.kind == Pair::Kind::kPlus ? 1.0 : -1.0;
-    const double friction =
-        contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
-    const Eigen::RowVectorXd rn = is_given(n) ? Y.row(n) : g.row(n);
-    const double rn_load = is_given(n) ? h[n] : g_load[n];
-    if (pair.motion_is_second) {
-      // w = mu r_n + sense r_t
-      const Eigen::RowVectorXd rt = is_given(t) ? Y.row(t) : g.row(t);
-      matrix_.row(p) = friction * rn + sense * rt;
-      load_[p] = friction * rn_load + sense * (is_given(t) ? h[t] : g_load[t]);
-    } else {
-      // z = sense v_t, and of a contact that may slide either way what it slides the other way.
-      matrix_.row(p) = sense * Y.row(t);
-      load_[p] = sense * h[t];
-      if (roles_[static_cast<std::size_t>(pair.contact)] == Role::kRough) matrix_(p, p + 1) += 1.0;
-    }
+    const bool motion = !pair.motion_is_second;
+    Eigen::RowVectorXd row;
+    if (pair.force == Inequality::kNormalReaction)
+      row = row_of(n, motion);
+    else
+      row = pair.Sense() * row_of(t, motion);
+    if (pair.force != Inequality::kNormalReaction && !motion) row += friction(pair) * row_of(n, false);
+    matrix_.row(p) = row.head(num_pairs);
+    load_[p] = row[num_pairs];
+    // Of a contact that may slide either way, z+ is v_t and what it slides the other way.
+    if (pair.force == Inequality::kConePlus && motion && roles_[static_cast<std::size_t>(pair.contact)] == Role::kRough)
+      matrix_(p, p + 1) += 1.0;
   }
   if (!matrix_.allFinite() || !load_.allFinite()) return;
   Eigen::VectorXd scale(num_pairs);
@@ -233,34 +207,24 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
             HasOneSolutionForEach(matrix_);
 }
 
-std::optional<std::vector<ContactState>> RateComplementarity::Solve(double load_sense, int guess) const {
-  Eigen::VectorXd cover = Eigen::VectorXd::Ones(matrix_.rows());
-  // Normal and tangential variables covered in other shares lead to other solutions, where there are several.
-  if (guess > 0)
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if ((pairs_[p].kind == Pair::Kind::kNormal) == (guess % 2 == 0))
-        cover[static_cast<Eigen::Index>(p)] = 16.0 * guess;
-  const std::optional<std::vector<bool>> second = SolveByLemke(matrix_, load_sense * load_, cover);
-  if (!second) return std::nullopt;
-  std::vector<ContactState> states;
-  for (const ContactModes& option : options_) states.push_back(option.front().state);
-  for (std::size_t k = 0; k < roles_.size(); ++k)
-    states[static_cast<std::size_t>(weakly_active_[k])] =
-        roles_[k] == Role::kFrictionless ? ContactState::kClosed : ContactState::kStick;
-  const auto moves = [&](std::size_t p) { return (*second)[p] == pairs_[p].motion_is_second; };
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    ContactState& state = states[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pairs_[p].contact)])];
-    if (state == ContactState::kOpen || !moves(p)) continue;
-    switch (pairs_[p].kind) {
-      case Pair::Kind::kNormal: state = ContactState::kOpen; break;
-      case Pair::Kind::kPlus: state = ContactState::kSlipPlus; break;
+std::vector<RateSolution> RateComplementarity::Solve(double load_sense) const {
+  std::vector<RateSolution> solutions;
+  for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_).list) {
+    solutions.push_back({{}, !solution.degenerate.empty()});
+    std::vector<ContactState>& states = solutions.back().states;
+    for (const ContactModes& option : options_) states.push_back(option.front().state);
+    for (std::size_t k = 0; k < roles_.size(); ++k)
+      states[static_cast<std::size_t>(weakly_active_[k])] =
+          roles_[k] == Role::kFrictionless ? ContactState::kClosed : ContactState::kStick;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const auto i = static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pairs_[p].contact)]);
+      const bool moves = solution.second[p] == pairs_[p].motion_is_second;
       // Motions both ways are those of no reaction: the first one stands for both.
-      case Pair::Kind::kMinus:
-        if (state != ContactState::kSlipPlus) state = ContactState::kSlipMinus;
-        break;
+      if (moves && states[i] != ContactState::kOpen && !Slips(states[i]))
+        states[i] = NextMode(*contacts_[i], pairs_[p].force, {states[i], 0}).state;
     }
   }
-  return states;
+  return solutions;
 }
 
 }  // namespace contact_path

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/bordered_solver.h"
-#include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -57,7 +55,7 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   const Eigen::Index nd = system.NumDofs();
   std::vector<Kinematics> kinematics(weakly_active_.size());
   Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
-  const Eigen::MatrixXd modes = RigidModes(structure).At(point.u, transposed);
+  const Eigen::MatrixXd modes = system.FreeMotions(x, transposed);
   gap_of_modes_.resize(static_cast<Eigen::Index>(weakly_active_.size()), modes.cols());
   slip_of_modes_.resize(gap_of_modes_.rows(), modes.cols());
   bool deformable = false;
@@ -126,52 +124,6 @@ double RateProblem::Unit(Eigen::Index k) const {
   return contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])]->ForceUnit();
 }
 
-Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations) const {
-  // Nearly always one solution, and it is not orthogonal to the arrival.
-  Eigen::MatrixXd square(equations.cols(), equations.cols());
-  square << equations, along_.transpose();
-  const Eigen::PartialPivLU<Eigen::MatrixXd> bordered(square);
-  if (bordered.rcond() > tolerances::kDependent)
-    return bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
-  lu.setThreshold(tolerances::kDependent);
-  return lu.kernel();
-}
-
-Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const {
-  // Orthonormal motions; a combination of reactions without motion is left out.
-  const SingularVectors spanned = RightSingularVectors(kernel);
-  const Eigen::MatrixXd basis = kernel * spanned.v * spanned.values.cwiseInverse().asDiagonal();
-  const SingularVectors motions = RightSingularVectors(basis.transpose() * gram_ * basis);  // symmetric
-  const double largest = motions.values[0];
-  Eigen::MatrixXd moving(kernel.rows(), 0);
-  for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
-    const double rate = std::sqrt(motions.values[k] / largest);
-    if (rate <= tolerances::kSameDirection) break;
-    if (!(rate >= tolerances::kSameTangent)) return {};
-    moving.conservativeResize(Eigen::NoChange, moving.cols() + 1);
-    moving.rightCols<1>() = basis * motions.v.col(k) / (rate * std::sqrt(largest));
-  }
-  if (moving.cols() == 0) return {};
-
-  // Rigid modes change neither the load nor a reaction. What does, has nothing of them.
-  Eigen::MatrixXd forces = moving;
-  for (Eigen::Index k = 0; k < gap_.rows(); ++k) {
-    const double unit = Unit(k);
-    forces.row(1 + 2 * k) = (forces.row(1 + 2 * k) - kSpring * (gap_.row(k) * moving)) / unit;
-    forces.row(2 + 2 * k) = (forces.row(2 + 2 * k) - kSpring * (slip_.row(k) * moving)) / unit;
-  }
-  const SingularVectors changes = RightSingularVectors(forces);
-  Eigen::Index proper = 0;
-  while (proper < changes.values.size() && changes.values[proper] >= tolerances::kSameTangent) ++proper;
-  if (proper < changes.values.size() && !(changes.values[proper] <= tolerances::kDependent)) return {};
-  const Eigen::MatrixXd candidates = moving * (proper > 0 ? changes.v.leftCols(proper) : changes.v);
-  // Among several proper directions second derivatives choose, which are not condensed.
-  if (candidates.cols() > 1 && proper > 0) return {};
-  if (candidates.cols() == 1) return candidates.col(0);
-  return candidates * (candidates.transpose() * along_);  // nearest to the arrival
-}
-
 Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) const {
   const Eigen::Index count = gap_.rows(), columns = gap_.cols();
   // A reaction is the force less that of its spring.
@@ -214,25 +166,26 @@ bool RateProblem::LeavesRigidMotion(const std::vector<ContactState>& states) con
 
 std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
   if (LeavesRigidMotion(states)) return std::nullopt;
-  const Eigen::MatrixXd kernel = Kernel(Equations(states));
-  return RatesOf(kernel.cols() == 1 ? kernel.col(0) : ShortestMember(kernel));
-}
-
-std::optional<CondensedRates> RateProblem::UniqueRates(const std::vector<ContactState>& states) const {
-  const Eigen::MatrixXd kernel = Kernel(Equations(states));
-  if (kernel.cols() != 1) return std::nullopt;
-  return RatesOf(kernel.col(0));
-}
-
-std::optional<CondensedRates> RateProblem::RatesOf(Eigen::VectorXd z) const {
-  if (z.size() == 0) return std::nullopt;
+  const Eigen::MatrixXd equations = Equations(states);
+  // Nearly always they are not orthogonal to the arrival.
+  Eigen::MatrixXd square(equations.cols(), equations.cols());
+  square << equations, along_.transpose();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> bordered(square);
+  Eigen::VectorXd z;
+  if (bordered.rcond() > tolerances::kDependent) {
+    z = bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
+  } else {
+    Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
+    lu.setThreshold(tolerances::kDependent);
+    if (lu.dimensionOfKernel() != 1) return std::nullopt;
+    z = lu.kernel();
+  }
   const Eigen::Index count = gap_.rows();
   const double norm = std::sqrt(z.dot(gram_ * z));
   if (!(norm > 0.0) || !std::isfinite(norm)) return std::nullopt;
   z /= norm;
   CondensedRates rates;
   rates.load = z[0];
-  rates.along = along_.dot(z);
   rates.gap = gap_ * z;
   rates.slip = slip_ * z;
   rates.rn.resize(count);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact_path/equations/nearest_point.h"
+#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -22,16 +23,6 @@ constexpr int kMaxActiveSetChanges = 8;
 // Barrier parameter of a start that is nearly the solution: it counts as solved.
 constexpr double kBarrierAtOnce = 0.5 * tolerances::kAccepted;
 
-ContactState StateBeyond(Inequality failed, const ContactPair& contact) {
-  switch (failed) {
-    case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
-    case Inequality::kConePlus: return ContactState::kSlipPlus;
-    case Inequality::kConeMinus: return ContactState::kSlipMinus;
-    case Inequality::kSlip:
-    case Inequality::kTotalSlip: return ContactState::kStick;
-    default: return ContactState::kOpen;
-  }
-}
 
 }  // namespace
 
@@ -173,9 +164,11 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
       if (held) continue;
       kept = false;
       last = constraint.contact;
+      const ContactMode next =
+          NextMode(*contacts_[i], constraint.inequality, {states[i], patches.empty() ? 0 : patches[i]});
       if (KeepsPatch(constraint.inequality)) {
-        patches[i] += constraint.inequality == Inequality::kPatchEnd ? 1 : -1;
-        if (!contacts_[i]->HasPatch(patches[i])) return std::nullopt;
+        patches[i] = next.patch;
+        if (!contacts_[i]->HasPatch(next.patch)) return std::nullopt;
         continue;
       }
       if (contacts_[i]->Deformable() && patches[i] == kNearestPatch)
@@ -184,7 +177,7 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
       if (corners && changed[i])
         active.push_back(constraint);
       else
-        states[i] = StateBeyond(constraint.inequality, *contacts_[i]);
+        states[i] = next.state;
       changed[i] = true;
     }
     if (!kept) continue;

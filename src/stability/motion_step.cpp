@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact_path/equations/newton_loop.h"
+#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -73,8 +74,8 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
     }
     for (const Change& change : changes) {
       NoteClosing(from, change, x, &references, &step);
-      trial.states[change.contact] = change.state;
-      if (!trial.patches.empty()) trial.patches[change.contact] = change.patch;
+      trial.states[change.contact] = change.to.state;
+      if (!trial.patches.empty()) trial.patches[change.contact] = change.to.patch;
     }
   }
   return std::nullopt;
@@ -83,16 +84,17 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
 void MotionStepSolver::NoteClosing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x,
                                    Eigen::VectorXd* references, MotionStep* step) const {
   const std::size_t i = change.contact;
-  const bool closes = from.states[i] == ContactState::kOpen && change.state != ContactState::kOpen;
+  const bool closes = from.states[i] == ContactState::kOpen && change.to.state != ContactState::kOpen;
   if (!closes || system_.states()[i] != ContactState::kOpen) return;
   const ContactPair& pair = *contacts_[i];
   const double s = x[system_.NumDofs()];
-  const double before = std::max(0.0, pair.Gap(from.u, from.s, change.patch)), after = pair.Gap(x, s, change.patch);
+  const double before = std::max(0.0, pair.Gap(from.u, from.s, change.to.patch)),
+               after = pair.Gap(x, s, change.to.patch);
   const double share = after < 0.0 ? before / (before - after) : 1.0;
   step->closed_after[i] = share;
   if (pair.HasTotalLaw()) return;
-  const double start = pair.Xi(from.u, from.s, change.patch);
-  (*references)[static_cast<Eigen::Index>(i)] = start + share * (pair.Xi(x, s, change.patch) - start);
+  const double start = pair.Xi(from.u, from.s, change.to.patch);
+  (*references)[static_cast<Eigen::Index>(i)] = start + share * (pair.Xi(x, s, change.to.patch) - start);
 }
 
 std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::VectorXd& x) const {
@@ -108,34 +110,20 @@ std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::Vec
       if (changes.back().excess >= excess) continue;
       changes.pop_back();
     }
-    changes.push_back(Next(constraint, excess, x));
+    changes.push_back({contact, Next(constraint, x), excess});
   }
   return changes;
 }
 
-MotionStepSolver::Change MotionStepSolver::Next(const Constraint& violated, double excess,
-                                                const Eigen::VectorXd& x) const {
+ContactMode MotionStepSolver::Next(const Constraint& violated, const Eigen::VectorXd& x) const {
   const auto i = static_cast<std::size_t>(violated.contact);
   const ContactPair& pair = *contacts_[i];
-  const ContactState state = system_.states()[i];
   const int patch = system_.patches()[i];
-  const auto on_patch = [&](int other) {
-    return pair.HasPatch(other) ? Change{i, state, other, excess}
-                                : Change{i, ContactState::kOpen, PatchOfOpen(pair, patch), excess};
-  };
-  switch (violated.inequality) {
-    case Inequality::kGap:
-      return {i, pair.Frictional() ? ContactState::kStick : ContactState::kClosed,
-              PatchOfClosing(pair, x, x[system_.NumDofs()]), excess};
-    case Inequality::kConePlus: return {i, ContactState::kSlipPlus, patch, excess};
-    case Inequality::kConeMinus: return {i, ContactState::kSlipMinus, patch, excess};
-    case Inequality::kSlip:
-    case Inequality::kTotalSlip: return {i, ContactState::kStick, patch, excess};
-    case Inequality::kPatchBegin: return on_patch(patch - 1);
-    case Inequality::kPatchEnd: return on_patch(patch + 1);
-    case Inequality::kNormalReaction: break;
-  }
-  return {i, ContactState::kOpen, PatchOfOpen(pair, patch), excess};
+  ContactMode next = NextMode(pair, violated.inequality, {system_.states()[i], patch});
+  if (violated.inequality == Inequality::kGap) next.patch = PatchOfClosing(pair, x, x[system_.NumDofs()]);
+  if (KeepsPatch(violated.inequality) && !pair.HasPatch(next.patch)) next.state = ContactState::kOpen;
+  if (next.state == ContactState::kOpen) next.patch = PatchOfOpen(pair, patch);
+  return next;
 }
 
 bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact_path/contact/contact_mode.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
@@ -55,8 +56,7 @@ class MotionStepSolver {
  private:
   struct Change {
     std::size_t contact;
-    ContactState state;
-    int patch;
+    ContactMode to;
     double excess;  // of the inequality, over its tolerance
   };
 
@@ -64,7 +64,7 @@ class MotionStepSolver {
   bool Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x, int* iterations);
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row);
   std::vector<Change> Changes(const Eigen::VectorXd& x) const;
-  Change Next(const Constraint& violated, double excess, const Eigen::VectorXd& x) const;
+  ContactMode Next(const Constraint& violated, const Eigen::VectorXd& x) const;
   // Slip of a contact that closes counts from where its gap is zero: by linear interpolation of the step.
   void NoteClosing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x, Eigen::VectorXd* references,
                    MotionStep* step) const;

@@ -70,21 +70,6 @@ Eigen::Matrix2d Diagonal(double x, double y) { return Vector2d(x, y).asDiagonal(
 
 // ----- by hand -----
 
-TEST(FindBranches, StickInsideTheCone) {
-  const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, 0.1, kStick);
-  for (const double sign : {1.0, -1.0}) {
-    const BranchSet on = rest->FromStart(sign);
-    ASSERT_EQ(on.branches.size(), 1U);
-    EXPECT_EQ(on.branches[0].states, States{kStick});
-    EXPECT_EQ(on.branches[0].load_rate, sign);
-    EXPECT_EQ(on.branches[0].dissipation_rate, 0.0);
-    EXPECT_EQ(on.branches[0].direction, Eigen::Vector3d(0.0, 0.0, sign));
-    EXPECT_EQ(on.weakly_active, 0);
-    EXPECT_EQ(on.combinations, 1);
-    EXPECT_EQ(on.complete_by, Completeness::kAllCombinations);
-  }
-}
-
 // At the edge of the cone, rt = -mu rn: slip towards +x with k du = ds, or stick and unload.
 TEST(FindBranches, EdgeOfTheCone) {
   const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, -0.5, kStick);
@@ -113,42 +98,6 @@ TEST(FindBranches, SlippingItMaySlipOnOrStick) {
   EXPECT_EQ(on.branches[1].states, States{kStick});
   EXPECT_EQ(on.branches[1].dissipation_rate, 0.0);
   EXPECT_NEAR(on.branches[1].load_rate, -1.0, 1e-15);
-}
-
-// Without reactions all four states are open to it; K = I, the load decides: inside the cone it sticks, beside it it
-// slips, upwards it leaves.
-TEST(FindBranches, TouchingWithoutReactions) {
-  const double mu = 0.5;
-  const auto branches = [&](double fx, double fy) {
-    const auto rest = RestingNode(Diagonal(1.0, 1.0), Vector2d(fx, fy), mu, 0.0, 0.0, kStick);
-    return rest->FromStart(1.0);
-  };
-  const BranchSet pressed = branches(0.3, -1.0);
-  ASSERT_EQ(pressed.branches.size(), 1U);
-  EXPECT_EQ(pressed.branches[0].states, States{kStick});
-  EXPECT_EQ(pressed.combinations, 4);
-  for (const double sign : {1.0, -1.0}) {
-    const BranchSet beside = branches(sign * 0.8, -1.0);
-    ASSERT_EQ(beside.branches.size(), 1U);
-    EXPECT_EQ(beside.branches[0].states, States{sign > 0.0 ? kSlipPlus : kSlipMinus});
-    // du = 0.8 - mu for ds = 1.
-    EXPECT_NEAR(beside.branches[0].direction[0] / beside.branches[0].load_rate, sign * 0.3, 1e-15);
-    EXPECT_EQ(beside.branches[0].dissipation_rate, 0.0);  // no reaction yet
-  }
-  const BranchSet lifted = branches(0.3, 1.0);
-  ASSERT_EQ(lifted.branches.size(), 1U);
-  EXPECT_EQ(lifted.branches[0].states, States{kOpen});
-  EXPECT_NEAR(lifted.branches[0].direction[1] / lifted.branches[0].load_rate, 1.0, 1e-15);
-}
-
-TEST(FindBranches, FrictionlessContactIsOpenOrClosed) {
-  for (const double sign : {1.0, -1.0}) {
-    const auto rest = RestingNode(Diagonal(1.0, 1.0), Vector2d(0.3, -1.0), 0.0, 0.0, 0.0, kClosed);
-    const BranchSet on = rest->FromStart(sign);
-    ASSERT_EQ(on.branches.size(), 1U);
-    EXPECT_EQ(on.branches[0].states, States{sign > 0.0 ? kClosed : kOpen});
-    EXPECT_EQ(on.combinations, 2);
-  }
 }
 
 // Klarbring's example: mu = 2 > K_tt / |K_nt|. With the reaction gone, load as on the way up, stick, slip and open are

@@ -1,8 +1,10 @@
+// Toy problems w = M z + q, 0 <= w, 0 <= z, w . z = 0.
 #include "contact_path/branch/complementarity.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <set>
 #include <vector>
 
 #include "support/random.h"
@@ -12,58 +14,91 @@ namespace {
 
 constexpr double kRounding = 1e-10;
 
+using Basis = std::vector<bool>;
+
 Eigen::MatrixXd RandomMatrix(Random* random, Eigen::Index size) {
   Eigen::MatrixXd matrix(size, size);
   for (Eigen::Index j = 0; j < size; ++j) matrix.col(j) = random->Vector(size, -1.0, 1.0);
   return matrix;
 }
 
-// z with these basic: of w = 0 there.
-Eigen::VectorXd SolutionOf(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const std::vector<bool>& basic) {
+// Symmetric part positive definite, so that it is a P-matrix.
+Eigen::MatrixXd RandomPMatrix(Random* random, Eigen::Index size) {
+  const Eigen::MatrixXd root = RandomMatrix(random, size), turn = RandomMatrix(random, size);
+  return root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(size, size) + turn - turn.transpose();
+}
+
+bool Solves(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Basis& second) {
   const Eigen::Index n = q.size();
   Eigen::MatrixXd equations = Eigen::MatrixXd::Identity(n, n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (!basic[static_cast<std::size_t>(i)]) continue;
+    if (!second[static_cast<std::size_t>(i)]) continue;
     equations.row(i) = M.row(i);
     right[i] = -q[i];
   }
-  return equations.fullPivLu().solve(right);
-}
-
-bool Solves(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const std::vector<bool>& basic) {
-  const Eigen::VectorXd z = SolutionOf(M, q, basic), w = M * z + q;
+  const Eigen::VectorXd z = equations.partialPivLu().solve(right), w = M * z + q;
   return z.minCoeff() >= -kRounding && w.minCoeff() >= -kRounding && std::abs(z.dot(w)) <= kRounding;
 }
 
-// The number of all sets of basic variables that solve the problem.
-int CountByEnumeration(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
-  int count = 0;
+// By trying all of them.
+std::set<Basis> AllBases(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
+  std::set<Basis> bases;
   for (int set = 0; set < 1 << q.size(); ++set) {
-    std::vector<bool> basic;
-    for (Eigen::Index i = 0; i < q.size(); ++i) basic.push_back((set >> i) % 2 == 1);
-    count += Solves(M, q, basic);
+    Basis second;
+    for (Eigen::Index i = 0; i < q.size(); ++i) second.push_back((set >> i) % 2 == 1);
+    if (Solves(M, q, second)) bases.insert(second);
   }
-  return count;
+  return bases;
 }
 
-TEST(Complementarity, PositiveDefiniteMatricesHaveOneSolution) {
+std::set<Basis> Found(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
+  std::set<Basis> bases;
+  for (const ComplementaritySolution& solution : SolveComplementarity(M, q).list) bases.insert(solution.second);
+  return bases;
+}
+
+TEST(Complementarity, OneSolutionByCertificate) {
   Random random(3);
-  for (int round = 0; round < 200; ++round) {
-    const Eigen::Index n = 1 + round % 7;
-    const Eigen::MatrixXd root = RandomMatrix(&random, n), turn = RandomMatrix(&random, n);
-    const Eigen::MatrixXd M = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n) + turn - turn.transpose();
-    ASSERT_TRUE(HasOneSolutionForEach(M));
+  for (const Eigen::Index n : {1, 2, 3, 4, 5, 6, 7, 12}) {
+    const Eigen::MatrixXd M = RandomPMatrix(&random, n);
     const Eigen::VectorXd q = random.Vector(n, -1.0, 1.0);
-    EXPECT_EQ(CountByEnumeration(M, q), 1);
-    const auto basic = SolveByLemke(M, q, Eigen::VectorXd::Ones(n));
-    ASSERT_TRUE(basic) << round;
-    EXPECT_TRUE(Solves(M, q, *basic)) << round;
+    for (const double sense : {1.0, -1.0}) {
+      const ComplementaritySolutions solutions = SolveComplementarity(M, sense * q);
+      EXPECT_TRUE(solutions.only);
+      ASSERT_EQ(solutions.list.size(), 1U);
+      EXPECT_TRUE(solutions.list[0].degenerate.empty());
+      EXPECT_EQ(AllBases(M, sense * q), std::set<Basis>{solutions.list[0].second});
+    }
+  }
+}
+
+TEST(Complementarity, TwoSolutionsAreNotTheOnlyOnes) {
+  Eigen::Matrix2d M;
+  M << 1.0, -2.0, -2.0, 1.0;
+  const Eigen::Vector2d q(1.0, 1.0);
+  EXPECT_FALSE(SolveComplementarity(M, q).only);
+  EXPECT_EQ(Found(M, q), (std::set<Basis>{{false, false}, {true, true}}));  // z = 0, z = (1, 1)
+}
+
+// One pair, then all of them, has w = z = 0, but for rounding: each such pair is named, and no other.
+TEST(Complementarity, PairsWhoseModesTheRatesHide) {
+  Random random(5);
+  for (const double rounding : {0.0, 1e-12, -1e-12}) {
+    const Eigen::MatrixXd M = RandomPMatrix(&random, 4);
+    const Eigen::Vector4d z(0.7, 0.0, 0.0, 0.4), w(0.0, 0.5, rounding, 0.0);
+    const ComplementaritySolutions one = SolveComplementarity(M, w - M * z);
+    ASSERT_EQ(one.list.size(), 1U);
+    EXPECT_EQ(one.list[0].degenerate, std::vector<Eigen::Index>{2});
+    EXPECT_TRUE(one.list[0].second[0] && !one.list[0].second[1] && one.list[0].second[3]);
+    const ComplementaritySolutions all = SolveComplementarity(M, Eigen::Vector4d::Zero());
+    ASSERT_EQ(all.list.size(), 1U);
+    EXPECT_EQ(all.list[0].degenerate, (std::vector<Eigen::Index>{0, 1, 2, 3}));
   }
 }
 
 // What comes out solves the problem, whatever the matrix; for matrices without negative entries and with a positive
-// diagonal there is a solution, and it is found.
+// diagonal there is a solution, and one is found.
 TEST(Complementarity, OtherMatrices) {
   Random random(4);
   int found = 0;
@@ -73,37 +108,26 @@ TEST(Complementarity, OtherMatrices) {
     const bool positive = round % 2 == 0;
     if (positive) M = (M.cwiseAbs() + Eigen::MatrixXd::Identity(n, n)).eval();
     const Eigen::VectorXd q = random.Vector(n, -1.0, 1.0);
-    const auto basic = SolveByLemke(M, q, Eigen::VectorXd::Ones(n));
-    if (positive) {
-      ASSERT_TRUE(basic) << round;
-    }
-    if (!basic) continue;
-    ++found;
-    EXPECT_TRUE(Solves(M, q, *basic)) << round;
+    const std::set<Basis> bases = Found(M, q);
+    EXPECT_TRUE(!positive || !bases.empty()) << round;
+    found += !bases.empty();
+    for (const Basis& second : bases) EXPECT_TRUE(Solves(M, q, second)) << round;
   }
   EXPECT_GT(found, 150);
 }
 
-TEST(Complementarity, MatrixWithoutADiagonal) {
-  Eigen::Matrix2d M;
-  M << 0.0, -1.0, 1.0, 0.0;
-  EXPECT_FALSE(HasOneSolutionForEach(M));
-  EXPECT_FALSE(SolveByLemke(M, Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(1.0, 1.0)));
-  const auto basic = SolveByLemke(M, Eigen::Vector2d(1.0, -1.0), Eigen::Vector2d(1.0, 1.0));
-  ASSERT_TRUE(basic);
-  EXPECT_TRUE(Solves(M, Eigen::Vector2d(1.0, -1.0), *basic));
-}
-
-// All entries of q alike: each pivot is a tie.
-TEST(Complementarity, TiesEnd) {
+// Without a diagonal; then with all entries of q alike, so that each pivot is a tie.
+TEST(Complementarity, RaysAndTies) {
+  Eigen::Matrix2d turn;
+  turn << 0.0, -1.0, 1.0, 0.0;
+  EXPECT_FALSE(HasOneSolutionForEach(turn));
+  EXPECT_TRUE(Found(turn, Eigen::Vector2d(-1.0, -1.0)).empty());
+  EXPECT_EQ(Found(turn, Eigen::Vector2d(1.0, -1.0)), (std::set<Basis>{{true, true}}));
   const Eigen::Index n = 40;
-  Eigen::MatrixXd M = 2.0 * Eigen::MatrixXd::Identity(n, n);
-  M.diagonal(1).setConstant(-1.0);
-  M.diagonal(-1).setConstant(-1.0);
-  const Eigen::VectorXd q = Eigen::VectorXd::Constant(n, -1.0);
-  const auto basic = SolveByLemke(M, q, Eigen::VectorXd::Ones(n));
-  ASSERT_TRUE(basic);
-  EXPECT_TRUE(Solves(M, q, *basic));
+  Eigen::MatrixXd chain = 2.0 * Eigen::MatrixXd::Identity(n, n);
+  chain.diagonal(1).setConstant(-1.0);
+  chain.diagonal(-1).setConstant(-1.0);
+  EXPECT_EQ(Found(chain, Eigen::VectorXd::Constant(n, -1.0)), (std::set<Basis>{Basis(n, true)}));
 }
 
 }  // namespace

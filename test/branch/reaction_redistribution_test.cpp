@@ -104,15 +104,6 @@ TEST(ReactionRedistributions, NoneOfWhatDoesNotTouch) {
   EXPECT_TRUE(corner.Others().empty());
 }
 
-// A block on a belt, without force at the stop: the belt may pull at the stop with up to mu N.
-TEST(ReactionRedistributions, BeltAgainstStop) {
-  Corner corner({{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}, {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}});
-  corner.point.rn[0] = 2.0;
-  const std::vector<PathPoint> others = corner.Others();
-  EXPECT_TRUE(Holds(others, {2.0, 0.6, 0.6, 0.0}));   // the belt slips
-  EXPECT_FALSE(Holds(others, {2.0, 0.0, 0.0, 0.0}));  // as it is
-}
-
 // By the total law of friction the slip tells the force on the belt, and with it the one at the stop.
 TEST(ReactionRedistributions, TotalLawThatHasSlipped) {
   const std::vector<Obstacle> obstacles = {{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3},
@@ -162,29 +153,6 @@ TEST(ReactionRedistributions, FrictionOfRounding) {
   corner.point.rn << 1.0, 0.0;
   corner.point.rt << 1e-12, 0.0;
   EXPECT_TRUE(corner.Others().empty());
-}
-
-// The lower of two tables in one plane, and the upper: who carries?
-TEST(ReactionRedistributions, OneAboveTheOther) {
-  Corner smooth({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}});
-  smooth.point.rn << 3.0, 0.0;
-  std::vector<PathPoint> others = smooth.Others();
-  ASSERT_EQ(others.size(), 1u);  // that both carry is within the states of now
-  EXPECT_TRUE(Holds(others, {0.0, 0.0, 3.0, 0.0}));
-
-  // With a side force that only a rough one can hold.
-  Corner rough({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}});
-  rough.point.rn << 3.0, 0.0;
-  rough.point.rt << 0.3, 0.0;
-  others = rough.Others();
-  EXPECT_TRUE(Holds(others, {0.0, 0.0, 3.0, 0.3}));  // the lift alone
-}
-
-TEST(ReactionRedistributions, ALiftTooSmoothCannotTakeOver) {
-  Corner corner({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.05}});
-  corner.point.rn << 3.0, 0.0;
-  corner.point.rt << 0.3, 0.0;
-  for (const PathPoint& other : corner.Others()) EXPECT_GT(other.rn[0], 0.0);
 }
 
 // Between two walls that face each other nothing need press; what they press is not bounded, but its vertices are.

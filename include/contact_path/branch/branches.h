@@ -51,11 +51,11 @@ struct Arrival {
   std::optional<Constraint> failed;
 };
 
-// Why a list of branches has all branches.
+// Why a list of branches has all branches. Of two lists together: the smaller one.
 enum class Completeness {
   kNone,             // it may not have: too many combinations of states to try them all, the likely ones were
-  kOnlySolution,     // the rates have one solution for each sense of the load (rate_complementarity.h)
   kAllCombinations,  // all combinations of states were tried
+  kOnlySolution,     // the rates have one solution for each sense of the load (rate_complementarity.h)
 };
 
 // "", "only_solution", "all_combinations".
@@ -80,12 +80,13 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 // and each contact with an inequality that is zero to `tolerance`. Of branches with equal directions one is kept: the
 // branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none,
 // reactions may have to change while nothing moves, as where a block that is carried along meets a stop. Then branches
-// are added for all other reactions that the point can have (reaction_redistribution.h). The
-// complementarity problem of the rates (rate_complementarity.h) tells the branches where its solutions are the only
-// ones, and where there are more than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise. Where
-// that problem does not exist, or none of its solutions is a branch, principal pivoting on the rates (rate_problem.h)
-// selects combinations from many first guesses, then up to 4^8 are all tried. All are tried alike.
-// cancelled: asked often; may be empty.
+// are added for all other reactions that the point can have (reaction_redistribution.h). The complementarity problem of
+// the rates (rate_complementarity.h) tells the branches where its solutions are the only ones, and where there are more
+// than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise, and where the solution for a sense
+// of the load neither leads on nor is the branch of arrival. Where there are more of them, and that problem does not
+// exist or leaves a sense open, principal pivoting on the rates (rate_problem.h) selects combinations from several
+// first guesses; if there is no branch then, up to 4^8 are all tried. All are tried alike. cancelled: asked often; may
+// be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance,
                        const std::function<bool()>& cancelled = nullptr);

@@ -13,6 +13,11 @@
 
 namespace contact_path {
 
+struct RateSolution {
+  std::vector<ContactState> states;  // by candidate; of those that are not weakly active, the first option
+  bool degenerate = false;           // rates that are zero hide some of the states: others have the same rates
+};
+
 // For a rate s' = +-1 of the load, rates by the load and not by arc length. Each weakly active contact has
 //   at an edge of its cone, sliding or about to with sense sigma:
 //     v_n = 0, 0 <= z, 0 <= mu r_n + sigma r_t, one of them zero; v_t = sigma z
@@ -34,24 +39,27 @@ class RateComplementarity {
   // friction, and the symmetric part of the matrix is positive definite. No motion without load exists then.
   bool unique() const { return unique_; }
 
-  // States of all candidates by the solution for s' = load_sense; of the other candidates, the first option. guess: 0
-  // or more, each another way to a solution, which may be another one. Nothing: none was found.
-  std::optional<std::vector<ContactState>> Solve(double load_sense, int guess) const;
+  // For s' = load_sense. Where the solution is not unique, those that were found; there may be more.
+  std::vector<RateSolution> Solve(double load_sense) const;
 
  private:
   enum class Role { kFrictionless, kRough, kEdgePlus, kEdgeMinus };
   // One of the pairs: the first variable as a function of all second ones.
   struct Pair {
-    Eigen::Index contact;  // among the weakly active ones
-    enum class Kind { kNormal, kPlus, kMinus } kind;
+    Eigen::Index contact;   // among the weakly active ones
+    Inequality force;       // of r_n, mu r_n + r_t or mu r_n - r_t
     bool motion_is_second;  // v_n or z; otherwise the force is
+
+    double Sense() const { return force == Inequality::kConeMinus ? -1.0 : 1.0; }
   };
 
-  bool FindRoles(const ContactPairs& contacts);
-  void Build(const ContactPairs& contacts, const RateProblem& rates);
+  static bool AtEdge(Role role) { return role == Role::kEdgePlus || role == Role::kEdgeMinus; }
+  bool FindRoles();
+  void Build(const RateProblem& rates);
   // Of motions v = A (r + v) + b s': which of them are given, and the reactions follow; nothing: singular.
   std::optional<std::vector<bool>> GivenMotions(const Eigen::MatrixXd& A) const;
 
+  const ContactPairs& contacts_;
   const std::vector<ContactModes>& options_;
   const std::vector<int>& weakly_active_;
   std::vector<Role> roles_;

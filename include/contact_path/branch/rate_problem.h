@@ -17,7 +17,6 @@ namespace contact_path {
 // Rates by arc length |(du, ds)|, of one combination of states. By weakly_active contact, in their order.
 struct CondensedRates {
   double load = 0.0;     // ds
-  double along = 0.0;    // cosine to the direction of arrival
   Eigen::VectorXd gap;   // du_n
   Eigen::VectorXd slip;  // du_t
   Eigen::VectorXd rn;
@@ -43,12 +42,9 @@ class RateProblem {
   const Eigen::MatrixXd& GapRates() const { return gap_; }
   const Eigen::MatrixXd& SlipRates() const { return slip_; }
 
-  // The rates for these states of all candidates, up to their sign. Rates that are not unique are without rigid modes
-  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them, and
-  // where parts can move as rigid bodies: in rounding such rates may look unique.
+  // The rates for these states of all candidates, up to their sign. Nothing where they are not unique, and where parts
+  // can move as rigid bodies: in rounding such rates may look unique.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
-  // Rates(), and nothing where they are not unique.
-  std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
 
   // The first weakly active inequality that these rates, times sign, break by more than `tolerance` of the largest rate
   // of its kind; all such inequalities in `all`, if it is not null. active: which inequalities are weakly active. Both
@@ -60,16 +56,11 @@ class RateProblem {
  private:
   double Unit(Eigen::Index k) const;  // force unit of a weakly active contact
   Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
-  std::optional<CondensedRates> RatesOf(Eigen::VectorXd z) const;
   // Whether a rigid motion of parts that only weakly active contacts may hold is free in these states.
   bool LeavesRigidMotion(const std::vector<ContactState>& states) const;
-  // Columns span the solutions of equations . z = 0; they are not scaled.
-  Eigen::MatrixXd Kernel(const Eigen::MatrixXd& equations) const;
-  // Of a kernel of several columns, not scaled; empty where it cannot be told.
-  Eigen::VectorXd ShortestMember(const Eigen::MatrixXd& kernel) const;
 
   const ContactPairs& contacts_;
-  const PathPoint& point_;
+  const PathPoint point_;
   std::vector<int> weakly_active_;
   bool regular_ = false;
   // Rows: weakly_active contacts; columns: ds, then the normal and tangential force of each weakly_active contact,

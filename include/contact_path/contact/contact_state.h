@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 #define CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 
+#include <algorithm>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -38,6 +39,10 @@ inline bool operator<(const ContactMode& a, const ContactMode& b) {
 }
 
 using ContactModes = std::vector<ContactMode>;  // by candidate
+
+inline bool HasState(const ContactModes& modes, ContactState state) {
+  return std::any_of(modes.begin(), modes.end(), [state](const ContactMode& mode) { return mode.state == state; });
+}
 
 inline std::vector<ContactState> StatesOf(const ContactModes& modes) {
   std::vector<ContactState> states;
