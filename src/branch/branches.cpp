@@ -22,7 +22,6 @@ namespace {
 constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 512;  // of more, dense equations take longer than the sparse ones of all
-constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
 constexpr double kMostCombinations = 4096.0;         // 4^6
 constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
