@@ -118,17 +118,6 @@ TEST_P(NodeOnABend, ThePathGoesOnOnTheNextPatch) {
   }
 }
 
-TEST_P(NodeOnABend, StepsOnTheNextPatchStayOnIt) {
-  ContactArc arc(structure_, contacts_);
-  const PathPoint point = At(End(0), 1);
-  const Step step = StepFrom(&arc, point, Rate(End(0), 1, 1e-5), 0.05);
-  EXPECT_EQ(FirstEvent(&arc, step).Kind(), EventKind::kNone);
-  const double xi = Xi(step.end.x, 1);
-  EXPECT_GT(xi, End(0));
-  EXPECT_LE((step.end.x.head<3>() - Motion(At(xi, 1))).norm(), kExact);
-  EXPECT_EQ(arc.system().Unpack(step.end.x).patches, std::vector<int>{1});
-}
-
 TEST_P(NodeOnABend, WhereTwoPatchesMeetSlipLeadsToTheOneAhead) {
   const bool rough = GetParam() > 0.0;
   for (const int patch : {0, 1}) {

@@ -38,19 +38,6 @@ Jet JetAt(const Quintic& polynomial, double t) {
   return {Evaluate(polynomial, t), Evaluate(first, t), Evaluate(Derivative(first), t)};
 }
 
-TEST(Evaluate, IsTheSumOfThePowers) {
-  const Quintic polynomial = {1.0, -2.0, 3.0, -4.0, 5.0, -6.0};
-  EXPECT_EQ(Evaluate(polynomial, 0.0), 1.0);
-  EXPECT_EQ(Evaluate(polynomial, 1.0), -3.0);
-  EXPECT_EQ(Evaluate(polynomial, 2.0), 1.0 - 4.0 + 12.0 - 32.0 + 80.0 - 192.0);
-}
-
-TEST(Derivative, LowersEveryPower) {
-  const Quintic derivative = Derivative({1.0, -2.0, 3.0, -4.0, 5.0, -6.0});
-  const Quintic expected = {-2.0, 6.0, -12.0, 20.0, -30.0, 0.0};
-  EXPECT_EQ(derivative, expected);
-}
-
 TEST(HermiteQuintic, GivesBackEveryQuintic) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
@@ -68,40 +55,6 @@ TEST(HermiteQuintic, GivesBackEveryQuintic) {
       power *= length;
     }
   }
-}
-
-TEST(HermiteQuintic, HasTheGivenJetsAtItsEnds) {
-  Random random(2);
-  for (int i = 0; i < 200; ++i) {
-    const double length = random.Number(0.1, 2.0);
-    const Jet start = {random.Number(-1.0, 1.0), random.Number(-1.0, 1.0), random.Number(-1.0, 1.0)};
-    const Jet end = {random.Number(-1.0, 1.0), random.Number(-1.0, 1.0), random.Number(-1.0, 1.0)};
-    const Quintic polynomial = HermiteQuintic(start, end, length);
-    const Jet at_start = JetAt(polynomial, 0.0), at_end = JetAt(polynomial, length);
-    EXPECT_EQ(at_start.value, start.value);
-    EXPECT_EQ(at_start.first, start.first);
-    EXPECT_EQ(at_start.second, start.second);
-    EXPECT_NEAR(at_end.value, end.value, 1e-12);
-    EXPECT_NEAR(at_end.first, end.first, 1e-11 / length);
-    EXPECT_NEAR(at_end.second, end.second, 1e-10 / (length * length));
-  }
-}
-
-// The error of the interpolation of a smooth function is of order 6.
-TEST(HermiteQuintic, InterpolatesWithOrderSix) {
-  const auto error = [](double length) {
-    const double end = std::exp(length);
-    const Quintic polynomial = HermiteQuintic({1.0, 1.0, 1.0}, {end, end, end}, length);
-    double worst = 0.0;
-    for (int i = 1; i < 32; ++i) {
-      const double t = length * i / 32.0;
-      worst = std::max(worst, std::abs(Evaluate(polynomial, t) - std::exp(t)));
-    }
-    return worst;
-  };
-  for (const double length : {0.8, 0.4, 0.2})
-    EXPECT_NEAR(std::log2(error(length) / error(0.5 * length)), 6.0, 0.6) << length;
-  EXPECT_LE(error(0.4), std::exp(0.4) * std::pow(0.4, 6) / 46080.0);  // max |f^(6)| / 6! t^3 (length - t)^3
 }
 
 TEST(Roots, FindsAllRootsInAscendingOrder) {
