@@ -23,7 +23,6 @@ constexpr int kMaxActiveSetChanges = 8;
 // Barrier parameter of a start that is nearly the solution: it counts as solved.
 constexpr double kBarrierAtOnce = 0.5 * tolerances::kAccepted;
 
-
 }  // namespace
 
 IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs& contacts, NonlinearSolver* solver)

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/contact/contact_state.h"
 #include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/contact_state.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"

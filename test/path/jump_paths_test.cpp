@@ -93,10 +93,11 @@ TEST(JumpPaths, SlipThatLetsTheLoadFall) {
 }
 
 // Columns of a bar each, l0 = 1, EA = 10, that a spring of stiffness 2 at the top holds along x: each buckles where the
-// load is 2 l, l = 1 - s / EA. All do at one place, and the determinant of an even number of them keeps its sign.
+// load is 2 l, l = 1 - s / EA. All do at one place: a bifurcation of an odd number of them, with branches of each alone
+// and of all together; the determinant of an even number keeps its sign, and directions are counted.
 TEST(JumpPaths, SeveralPartsBuckleAtOnce) {
   constexpr double kEA = 10.0, kSpring = 2.0;
-  for (const int copies : {2, 4, 40}) {
+  for (const int copies : {1, 2, 3, 4, 7, 40}) {
     TraceRequest request;
     Scene& scene = request.scene;
     scene.name = "columns";
@@ -117,8 +118,13 @@ TEST(JumpPaths, SeveralPartsBuckleAtOnce) {
     request.options.stop = {{"load_factor", ">", 3.0}};
     const TracedPath path = TraceProved(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << copies << " " << path.result.message;
-    const std::vector<Increment> onsets = IncrementsOfKind(path, IncrementKind::kOnset);
+    const bool odd = copies % 2 == 1;
+    const std::vector<Increment> onsets =
+        IncrementsOfKind(path, odd ? IncrementKind::kBifurcation : IncrementKind::kOnset);
     ASSERT_EQ(onsets.size(), 1U) << copies;
+    const std::size_t curves = copies == 1 ? 1 : static_cast<std::size_t>(copies) + 1;
+    EXPECT_EQ(onsets[0].event.branches.size(), odd ? 1 + 2 * curves : 0) << copies;
+    EXPECT_EQ(onsets[0].event.complete, copies == 1 || !odd) << copies;
     EXPECT_NEAR(onsets[0].load_factor, kEA * kSpring / (kEA + kSpring), 1e-10) << copies;
     for (const Increment& increment : path.increments) {
       const bool buckled = increment.index >= onsets[0].index;
