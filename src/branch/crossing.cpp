@@ -34,12 +34,7 @@ void Orient(Eigen::Index motion, Eigen::VectorXd* direction) {
 class Parts {
  public:
   Parts(ArcEquations* equations, const BorderedJacobian& at, const Eigen::VectorXd& x)
-      : equations_(*equations),
-        at_(at),
-        form_(equations, x),
-        motion_(equations->NumMotion()),
-        v_(at.across),
-        psi_(at.psi) {
+      : at_(at), form_(equations, x), motion_(equations->NumMotion()), v_(at.across), psi_(at.psi) {
     if (v_.cols() > 1) Separate();
   }
 
@@ -84,7 +79,6 @@ class Parts {
     psi_ = psi_ * mixed.inverse().transpose();
   }
 
-  ArcEquations& equations_;
   const BorderedJacobian& at_;
   const SecondForm form_;
   const Eigen::Index motion_;

@@ -284,11 +284,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     fact.near = true;
     return fact;
   };
-  const StepEvent too_long = [] {
-    StepEvent fact;
-    fact.too_long = true;
-    return fact;
-  }();
+  StepEvent too_long;
+  too_long.too_long = true;
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Constraint> open_ends;
   const std::vector<Constraint> inequalities = equations.LimitsInReach(step.start.x, kReach * step.length, &open_ends);

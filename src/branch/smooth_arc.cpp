@@ -114,16 +114,16 @@ Correction SmoothArc::Correct(const Eigen::VectorXd& guess, const Eigen::VectorX
   return Newton(guess, row, value, false);
 }
 
-Correction SmoothArc::CorrectOnto(const Constraint& constraint, const Eigen::VectorXd& guess) {
+Correction SmoothArc::CorrectOnto(const Constraint& limit, const Eigen::VectorXd& guess) {
   // The inequality as the last equation, linearised anew where it is curved.
   Eigen::VectorXd from = guess;
   Correction correction;
   for (int round = 0; round < kMostCorrections; ++round) {
-    const Eigen::VectorXd row = equations_.Gradient(constraint, from);
-    correction = Correct(from, row, row.dot(from) - equations_.Value(constraint, from));
+    const Eigen::VectorXd row = equations_.Gradient(limit, from);
+    correction = Correct(from, row, row.dot(from) - equations_.Value(limit, from));
     if (!correction.converged) break;
     const double scale = 1.0 + correction.x.norm();
-    if (std::abs(equations_.Value(constraint, correction.x)) <= tolerances::kResidual * scale) break;
+    if (std::abs(equations_.Value(limit, correction.x)) <= tolerances::kResidual * scale) break;
     from = correction.x;
   }
   return correction;
