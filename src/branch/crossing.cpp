@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "contact_path/branch/bordered_jacobian.h"
 #include "contact_path/equations/newton_loop.h"
 #include "contact_path/equations/second_form.h"
+#include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -115,7 +115,7 @@ Eigen::Index RanksNear(ArcEquations* equations, const Eigen::VectorXd& x, const 
   if (most < 2 || !at.ChooseBorders(x, most) || !at.Factorize(x)) return 1;
   at.UpdateBorders();
   if (!at.Factorize(x)) return 1;
-  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(at.sigma).singularValues();
+  const Eigen::VectorXd values = RightSingularVectors(at.sigma).values;
   Eigen::Index k = 1;
   while (k < most && values[most - 1 - k] <= 2.0 * values[most - 1]) ++k;
   return k;

@@ -28,14 +28,22 @@ std::optional<CurvePoint> BranchMethod::BucklingOn(const Step& step, int directi
   return place;
 }
 
-std::optional<CurvePoint> BranchMethod::LettingGoOn(const Step& step) {
+std::optional<CurvePoint> BranchMethod::FirstUnstableOn(const Step& step) {
   double before = 0.0, after = step.length;
   std::optional<CurvePoint> place;
   for (double t = 0.5 * after; t > before && t < after && after - before > tolerances::kLastDigits * step.length;
        t = 0.5 * (before + after)) {
     const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
-    CurvePoint middle;
-    if (!there.converged || !arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
+    if (!there.converged) return std::nullopt;
+    CurvePoint middle = step.At(t);
+    if (stability_->HasSlips()) {
+      if (!arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
+    } else {
+      // Where parts buckle the equations give no derivatives; the interpolation of the step does.
+      middle.x = there.x;
+      middle.BeSingular();
+      middle.is_crossing = true;
+    }
     const bool gone = stability_->At(arc_.system().Unpack(there.x)) == Verdict::kUnstable;
     if (gone) place = middle;
     (gone ? after : before) = t;
@@ -99,7 +107,7 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
     if (!place && lost && !at.step.end.is_limit && !at.step.end.is_crossing) {
       const int more = stability_->record().unstable_directions - directions;
       if (!stability_->HasSlips() && directions >= 0 && more > 0) place = BucklingOn(at.step, more, &null_directions);
-      if (stability_->HasSlips()) place = LettingGoOn(at.step);
+      if (!place) place = FirstUnstableOn(at.step);
     }
   }
   if (!place) return false;

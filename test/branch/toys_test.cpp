@@ -129,7 +129,6 @@ TEST(Toys, SeveralPitchforksAtOnePoint) {
       ASSERT_EQ(step.event.Kind(), EventKind::kBifurcation);
       found = step.event.crossing;
     } else {  // the determinant keeps its sign, and a count has to ask
-      const CurvePoint start = walk.at();
       while (walk.at().x[size - 1] < -0.06) walk.ToEvent(1);
       const ArcStep step = walk.ToEvent(1);
       bool broken = false;

@@ -134,6 +134,36 @@ TEST(JumpPaths, SeveralPartsBuckleAtOnce) {
   }
 }
 
+// The same of two columns that differ by more than rounding: the onset is that of the softer one.
+TEST(JumpPaths, NearlyEqualPartsBuckleOneBehindTheOther) {
+  constexpr double kEA = 10.0;
+  for (const double more : {1e-3, 1e-5, 1e-7}) {
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "columns";
+    for (const double spring : {2.0, 2.0 * (1.0 + more)}) {
+      const std::string of = spring == 2.0 ? "soft" : "stiff";
+      const double x = spring == 2.0 ? 0.0 : 2.0;
+      scene.nodes.push_back({"foot_" + of, x, 0.0, true, true});
+      scene.nodes.push_back({"top_" + of, x, 1.0, false, false});
+      Bar bar;
+      bar.nodes = {"foot_" + of, "top_" + of};
+      bar.EA = kEA;
+      scene.bars.push_back(bar);
+      scene.superelements.push_back({{"top_" + of}, {spring, 0.0, 0.0, 0.0}});
+      scene.loads.push_back({"top_" + of, 0.0, -1.0, false});
+    }
+    request.options.stop = {{"load_factor", ">", 3.0}};
+    const TracedPath path = TraceProved(request);
+    const auto unstable = std::find_if(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
+      return increment.stability.stability == Verdict::kUnstable;
+    });
+    ASSERT_NE(unstable, path.increments.end()) << more;
+    EXPECT_NE(unstable->kind, IncrementKind::kRegular) << more;
+    EXPECT_NEAR(unstable->load_factor, 2.0 * kEA / (2.0 + kEA), 1e-8) << more;
+  }
+}
+
 TEST(JumpPaths, StopsWhereItIsAsked) {
   TraceRequest request = Jumping("von_mises");
   request.options.at_limit = AtLimit::kStop;

@@ -12,7 +12,7 @@ namespace contact_path {
 
 // M = [J B; V' 0; t' 0] with k borders B and V, orthonormal columns: with M (v_j, sigma_j) = (0, e_j, 0) and the rows
 // psi_i of the inverse, J loses k ranks where the k x k matrix sigma is zero (Govaerts 2000, 3.6), and
-// det [J; t'] = det(-sigma) det M, up to the parity of k.
+// det [J; t'] = det(-sigma) det M.
 class BorderedJacobian {
  public:
   // t: (u, s), NumMotion().

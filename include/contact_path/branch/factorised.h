@@ -9,8 +9,8 @@
 
 namespace contact_path {
 
-// M = [J; row]. Free motions are known by geometry and are looked for first: rounding of stiff parts may make equations
-// regular that a rigid motion makes singular.
+// M = [J; row]. Free motions are known by geometry: rounding of stiff parts may make equations regular that a rigid
+// motion makes singular.
 struct Factorised {
   enum class Kind {
     kRegular,   // the solver has M

@@ -58,8 +58,9 @@ class BranchMethod : public PathMethod {
   bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
   // The place on the step at which as many parts buckle at once as directions become unstable: curves cross there.
   std::optional<CurvePoint> BucklingOn(const Step& step, int directions, Eigen::MatrixXd* null_directions);
-  // The place on the step from which on contacts that slip let go, by bisection on the verdict.
-  std::optional<CurvePoint> LettingGoOn(const Step& step);
+  // The first place on the step that is unstable, by bisection on the verdict: contacts that slip let go, or parts that
+  // are nearly equal buckle one right behind the other.
+  std::optional<CurvePoint> FirstUnstableOn(const Step& step);
   // Of a point inside the arc; null_directions: of the tangent at fixed load factor, du, where it is singular.
   void NoteStability(const CurvePoint& end, const AcceptedPoint& increment, const Eigen::MatrixXd& null_directions);
   // Of the arc that begins at the event at the end of the step.
