@@ -123,13 +123,8 @@ bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint
                  StepEvent* event) {
   if (event->target) return false;
   const Eigen::Index s = arc.LoadFactor();
-  const auto at_end = [](const StepEvent& before) {
-    StepEvent other;
-    other.t = before.t;
-    return other;
-  };
   if (ends.load_factor && (start.x[s] - *ends.load_factor) * (end.x[s] - *ends.load_factor) < 0.0) {
-    *event = at_end(*event);
+    *event = StepEvent{event->t};
     event->target = true;
     return true;
   }
@@ -140,7 +135,7 @@ bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint
     for (const double value : target.values)
       if (std::abs(before - value) > target.rounding && (before - value) * (after - value) < 0.0 &&
           target.sense * (after - before) >= 0.0) {
-        *event = at_end(*event);
+        *event = StepEvent{event->t};
         event->sample = {i, value};
         return true;
       }

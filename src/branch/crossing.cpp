@@ -100,6 +100,7 @@ bool FindCurves(ArcEquations* equations, const BorderedJacobian& at, const Eigen
   }
   crossing->NameCurves(tangent);
   if (k > 1) {
+    // How the curve of all parts together bends is left to its first step.
     for (const CurveDerivatives& curve : crossing->across) all += curve.first;
     all = parts.Normalised(all);
     crossing->across.push_back({all, Eigen::VectorXd::Zero(all.size())});

@@ -204,8 +204,7 @@ void FindSample(const Step& step, const ArcTargets& functions, StepEvent* first)
       if (const std::optional<double> t =
               FirstAtValue(along, value, functions[i].rounding, functions[i].sense, step.length);
           t && *t <= first->t) {
-        *first = StepEvent();
-        first->t = *t;
+        *first = StepEvent{*t};
         first->sample = {i, value};
       }
   }
@@ -279,8 +278,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     first = std::move(fact);
   };
   const auto near_at = [](double t) {
-    StepEvent fact;
-    fact.t = t;
+    StepEvent fact{t};
     fact.near = true;
     return fact;
   };
@@ -319,8 +317,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   FindSample(step, ends.functions, &first);
   if (ends.load_factor)
     if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t) {
-      first = StepEvent();
-      first.t = *t;
+      first = StepEvent{*t};
       first.target = true;
     }
   return first;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "contact_path/verify/verify_path.h"
@@ -129,6 +130,39 @@ TEST(Crossing, OfABranchThatIsNotThereEndsTheTrace) {
   EXPECT_NE(path.result.message.find("branch_choices wants branch 4 at event 1: the number of branches there is 3"),
             std::string::npos)
       << path.result.message;
+}
+
+// Three bars that stand on end, each held along x by a spring at its top: the first, or all of them, fall over.
+TEST(Crossing, OfEqualPartsIsOfEachAloneAndOfAllTogether) {
+  TraceRequest request;
+  for (int i = 0; i < 3; ++i) {
+    const std::string foot = "foot" + std::to_string(i), top = "top" + std::to_string(i);
+    request.scene.nodes.push_back({foot, 2.0 * i, 0.0, true, true});
+    request.scene.nodes.push_back({top, 2.0 * i, 1.0, false, false});
+    Bar bar;
+    bar.nodes = {foot, top};
+    bar.EA = 10.0;
+    request.scene.bars.push_back(bar);
+    request.scene.superelements.push_back({{top}, {2.0, 0.0, 0.0, 0.0}});
+    request.scene.loads.push_back({top, 0.0, -1.0, false});
+  }
+  request.scene.name = "columns";
+  request.options.max_increments = 100;
+  for (const int branch : {2, 8}) {
+    request.options.branch_choices = {{1, 0, branch}};
+    const TracedPath path = TraceIncrements(request);
+    const Increment crossing = First(path), last = path.increments.back();
+    EXPECT_EQ(crossing.event.branches.size(), 9U);
+    EXPECT_FALSE(crossing.event.complete);
+    EXPECT_GT(last.index, crossing.index + 5) << path.result.message;
+    const double moved = PositionX(path, last, "top0");
+    EXPECT_GT(std::abs(moved), 0.1);
+    for (const int i : {1, 2})
+      EXPECT_NEAR(PositionX(path, last, "top" + std::to_string(i)) - 2.0 * i, branch == 8 ? moved : 0.0, 1e-9)
+          << branch;
+    for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+      ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  }
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Crossing {
   double error = 0.0;      // of the unfolding, by the rounding of F
   CurveDerivatives along;  // with the tangent nearest to the one wanted, in its sense
   // The others: ds > 0, or where the load rests, the largest component of u > 0. k = 1: one; otherwise those in which
-  // one part alone leaves the curve, and that in which all do: further ones are not looked for.
+  // one part alone leaves the curve, and that in which all do, with second = 0: further ones are not looked for.
   std::vector<CurveDerivatives> across;
   int factorisations = 0;
 
