@@ -18,7 +18,8 @@ bool SlidesOn(const FixedStateSystem& system, const Eigen::VectorXd& x, const Ei
 
 }  // namespace
 
-std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing) {
+std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing,
+                                        const PathParameter& parameter) {
   const FixedStateSystem& system = arc.system();
   const Eigen::Index motion = arc.NumMotion();
   const PathPoint point = system.Unpack(crossing.x);
@@ -30,6 +31,7 @@ std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPair
     branch.first = first;
     branch.second = second;
     branch.load_rate = first[motion - 1];
+    branch.parameter_rate = parameter.Rate(first, motion);
     branch.dissipation_rate = DissipationRate(contacts, branch.states, point, branch.direction);
     branch.turn = std::acos(std::clamp(branch.direction.dot(crossing.along.first.head(motion)), -1.0, 1.0));
     return branch;

@@ -78,7 +78,8 @@ bool BranchFinder::Try(const ContactModes& modes, std::vector<Branch>* branches,
       const bool leads_on = Admissible(tangents, k, x, first);
       if (leads_on) Add(tangents, first, tangents.second[k], branches);
       const bool in_sense = first[NumMotion() - 1] * load_sense > 0.0;
-      settled = settled || (in_sense && (leads_on || (!arrival_.is_start && IsReversed(first))));
+      const bool goes_back = arrival_.is_start ? arrival_.parameter.Sense(first, NumMotion()) < 0 : IsReversed(first);
+      settled = settled || (in_sense && (leads_on || goes_back));
     }
   return settled;
 }
@@ -131,7 +132,8 @@ bool BranchFinder::Excluded(const States& states, const RateProblem& condensed) 
   if (redundant_.Among(states)) return true;
   const std::optional<CondensedRates> rates = condensed.Rates(states);
   if (!rates) return false;
-  if (arrival_.is_start && std::abs(rates->load) <= tolerances::kUnitComponent) return true;
+  if (arrival_.is_start && arrival_.parameter.IsLoadFactor() && std::abs(rates->load) <= tolerances::kUnitComponent)
+    return true;
   return condensed.Broken(states, *rates, 1.0, tolerance_, tolerances::kSameTangent, nullptr) &&
          condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kSameTangent, nullptr);
 }
@@ -245,11 +247,12 @@ std::vector<Constraint> BranchFinder::Broken(const Eigen::VectorXd& x, const Eig
 
 bool BranchFinder::SetsOut(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                            double error) {
-  const Eigen::Index s = NumMotion() - 1;
-  int sign = LeadingSign({{first[s], error}, Rate(second[s])});
-  if (sign == 0)
-    if (const std::optional<Ahead> ahead = LookAhead(x, first, second)) sign = Rate(ahead->first[s]).Sign();
-  return sign * arrival_.direction[s] > 0.0;
+  const PathParameter& parameter = arrival_.parameter;
+  int sense = parameter.Sense(first, second, NumMotion(), error);
+  if (sense == 0)
+    if (const std::optional<Ahead> ahead = LookAhead(x, first, second))
+      sense = parameter.Sense(ahead->first, NumMotion());
+  return sense > 0;
 }
 
 std::optional<BranchFinder::Ahead> BranchFinder::LookAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
@@ -308,6 +311,8 @@ void BranchFinder::Add(const Tangents& tangents, const Eigen::VectorXd& first, c
   branch.first = first;
   branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
   branch.load_rate = first[NumMotion() - 1];
+  branch.parameter_rate = arrival_.parameter.Rate(first, NumMotion());
+  branch.sense = arrival_.parameter.Sense(first, NumMotion());
   branch.dissipation_rate = DissipationRate(contacts_, branch.states, point_, branch.direction);
   branch.turn = AngleTo(arrival_.direction, branch.direction);
   branch.reaction_rate = ReactionNorm(contacts_, system_.Unpack(first));

@@ -60,27 +60,31 @@ void ForEachGroup(Iterator begin, Iterator end, double gap, const std::function<
 
 }  // namespace
 
-void SortBranches(const std::vector<ContactState>& arrival, double load_sense, std::vector<Branch>* branches) {
+void SortBranches(const std::vector<ContactState>& arrival, bool forward, std::vector<Branch>* branches) {
   MarkMirrorBranches(branches);
-  const auto by_load = [&](Iterator from, Iterator to) {
+  const auto by_parameter = [&](Iterator from, Iterator to) {
     ForEachGroup(
-        from, to, tolerances::kRate, [&](const Branch& branch) { return -load_sense * branch.load_rate; },
+        from, to, tolerances::kRate, [](const Branch& branch) { return -branch.parameter_rate; },
         [&](Iterator begin, Iterator end) {
           std::sort(begin, end, [&](const Branch& a, const Branch& b) { return Before(arrival, a, b); });
         });
   };
   const auto by_deviation = [&](Iterator from, Iterator to) {
     ForEachGroup(
-        from, to, tolerances::kSameDirection, [](const Branch& branch) { return branch.deviation; }, by_load);
+        from, to, tolerances::kSameDirection, [](const Branch& branch) { return branch.deviation; }, by_parameter);
   };
+  const auto by_dissipation = [&](Iterator from, Iterator to) {
+    ForEachGroup(
+        from, to, tolerances::kRate, [](const Branch& branch) { return -branch.dissipation_rate; },
+        [&](Iterator begin, Iterator end) {
+          const Iterator mirrors = std::partition(begin, end, [](const Branch& branch) { return !branch.has_mirror; });
+          by_deviation(begin, mirrors);
+          by_deviation(mirrors, end);
+        });
+  };
+  if (!forward) return by_dissipation(branches->begin(), branches->end());
   ForEachGroup(
-      branches->begin(), branches->end(), tolerances::kRate,
-      [](const Branch& branch) { return -branch.dissipation_rate; },
-      [&](Iterator begin, Iterator end) {
-        const Iterator mirrors = std::partition(begin, end, [](const Branch& branch) { return !branch.has_mirror; });
-        by_deviation(begin, mirrors);
-        by_deviation(mirrors, end);
-      });
+      branches->begin(), branches->end(), 0.0, [](const Branch& branch) { return -branch.sense; }, by_dissipation);
 }
 
 }  // namespace contact_path

@@ -55,7 +55,9 @@ bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, Br
   bool both = true;
   for (const double sense : {1.0, -1.0}) {
     if (finder->Cancelled()) return true;
-    if (arrival.is_start && sense * arrival.direction[arrival.direction.size() - 1] < 0.0) continue;
+    const bool unwanted = arrival.is_start && arrival.parameter.IsLoadFactor() &&
+                          sense * arrival.direction[arrival.direction.size() - 1] < 0.0;
+    if (unwanted) continue;
     const std::vector<RateSolution> solutions = problem.Solve(sense);
     bool settled = solutions.empty() && !problem.unique();
     for (const RateSolution& solution : solutions) {
@@ -217,7 +219,11 @@ BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance,
                        const std::function<bool()>& cancelled) {
   BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, cancelled);
-  if (!result.cancelled && std::none_of(result.branches.begin(), result.branches.end(), GoesOn)) {
+  const auto none = [&](const auto& test) {
+    return std::none_of(result.branches.begin(), result.branches.end(), test);
+  };
+  const bool turns = none(GoesOn) || (arrival.forward && none([](const Branch& branch) { return branch.sense > 0; }));
+  if (!result.cancelled && turns) {
     const ReactionRedistributions others = FindReactionRedistributions(contacts, point, tolerance);
     if (!others.complete) result.complete_by = Completeness::kNone;
     for (const PathPoint& begin : others.points) {
@@ -226,7 +232,7 @@ BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts,
                 &result);
     }
   }
-  SortBranches(point.states, arrival.load_sense, &result.branches);
+  SortBranches(point.states, arrival.forward, &result.branches);
   return result;
 }
 

@@ -6,18 +6,6 @@
 
 namespace contact_path {
 
-bool BranchMethod::LoadsOn() const { return SettingRate(current_.first) > 0.0; }
-
-Eigen::VectorXd BranchMethod::SettingRow() const {
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(arc_.system().NumUnknowns());
-  row.head(setting_row_.size()) = options_.setting_sense * setting_row_;
-  return row;
-}
-
-double BranchMethod::SettingRate(const Eigen::VectorXd& first) const {
-  return options_.setting_sense * setting_row_.dot(first.head(setting_row_.size()));
-}
-
 std::optional<CurvePoint> BranchMethod::BucklingOn(const Step& step, int directions, Eigen::MatrixXd* null_directions) {
   bool broken = false;
   const std::optional<LocatedCrossing> found = CrossingOn(&arc_, step, directions, &broken);
@@ -96,9 +84,14 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   std::optional<CurvePoint> place;
   Eigen::MatrixXd null_directions;
   // Where curves cross, the tangent is known less well, and the setting may turn at that point.
-  const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent * setting_row_.norm() : 0.0;
-  if (!machine_.IsDead() && SettingRate(at.step.start.first) > 0.0 && SettingRate(at.step.end.first) < -rounding)
-    place = LocateTurn(&arc_, at.step, SettingRow());
+  const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent : 0.0;
+  const Eigen::Index n = arc_.NumMotion();
+  if (!machine_.IsDead() && parameter_.Rate(at.step.start.first, n) > 0.0 &&
+      parameter_.Rate(at.step.end.first, n) < -rounding) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(arc_.system().NumUnknowns());
+    row.head(n) = parameter_.Gradient(n);
+    place = LocateTurn(&arc_, at.step, row);
+  }
   if (stability_) {
     const Verdict before = stability_->OnArc();
     const int directions = stability_->record().unstable_directions;
@@ -122,22 +115,6 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   *increment = IncrementOf(at, from);
   if (stability_) NoteStability(*place, *increment, null_directions);
   return true;
-}
-
-void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const {
-  if (!options_.ends_at_limit || !(SettingRate(at.step.start.first) > 0.0)) return;
-  const Eigen::VectorXd along = current_.first.head(LoadFactor());
-  const bool at_limit = machine_.IsDead() && increment.kind == IncrementKind::kSmoothLimit;
-  advance->turns = at_limit || SettingRate(current_.first) < 0.0;
-  if (advance->turns) {
-    advance->moves_off = along;
-    return;
-  }
-  // At a bifurcation of the curve on which the path arrives and goes on, not where it takes another one.
-  const bool goes_on = increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kOnset ||
-                       (at.event.Kind() == EventKind::kBifurcation && increment.event.taken == 1);
-  if (stability_ && goes_on && stability_->UnderMachine() == Verdict::kUnstable)
-    advance->moves_off = stability_->Direction().size() > 0 ? stability_->Direction() : along;
 }
 
 }  // namespace contact_path

@@ -15,8 +15,6 @@ constexpr int kMostShorter = 6;        // times half as long, for the energies
 constexpr int kMostEventsInPlace = 8;  // then the contacts chatter, and no branch is trusted
 constexpr double kProbe = 0.1;         // of the wanted step: where a load that is level at an event is looked at again
 
-Advance Ended(End end) { return {{}, std::move(end), {}}; }
-
 End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {{sentence}}}; }
 
 }  // namespace
@@ -24,10 +22,13 @@ End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
       options_(options),
-      machine_(Machine::Of(model.structure, options.machine_stiffness / model.UnitOfMachineStiffness())),
-      setting_row_(machine_.Row(model.structure)),
+      cancelled_(std::move(cancelled)),
+      machine_(MachineSetting(model, options.machine_stiffness).machine()),
+      parameter_(MachineSetting(model, options.machine_stiffness).Parameter(options.direction)),
       stability_(options.stability ? std::make_unique<StabilityMonitor>(model, machine_) : nullptr),
-      departure_(model, {options.direction, options.keep_loading, options.largest_reaction}, std::move(cancelled)),
+      departure_(model,
+                 {parameter_, options.forward, options.at_limit != AtLimit::kFollow, options.largest_reaction},
+                 cancelled_),
       arc_(model.structure, model.contacts),
       step_length_(options.step),
       increments_(options.increments),
@@ -53,16 +54,14 @@ std::vector<double> BranchMethod::CrossingPath(const Crossing& crossing) const {
 std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found) {
   departure_.NoteReactions(from);
   if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
-  std::optional<End> end = departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_,
-                                            &current_, &found->branches);
-  if (stability_) {
-    PathPoint leaves = from;
-    if (!end) leaves.states = arc_.system().states();
-    if (!end) leaves.patches = arc_.system().patches();
-    stability_->Start(leaves, end ? nullptr : &current_);
-    found->stability = stability_->record();
-  }
-  return end;
+  std::optional<End> end = SetOut(from, found);
+  const bool unstable = stability_ && stability_->UnderMachine() == Verdict::kUnstable;
+  if (!unstable || (end && end->reason != EndReason::kPathEnd)) return end;
+  if (options_.at_limit == AtLimit::kStop) return End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
+  if (options_.at_limit == AtLimit::kFollow) return end;
+  push_ = Push(from, parameter_.Gradient(arc_.NumMotion()).head(LoadFactor()));
+  turned_ = end.has_value();
+  return std::nullopt;
 }
 
 bool BranchMethod::Resume(const ResumePoint& at) {
@@ -168,15 +167,16 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
   facts->smooth_limit = kind == EventKind::kLimitPoint;
   if (facts->smooth_limit && at.event.crossing) {
     increment->event.null_vector = CrossingPath(*at.event.crossing);
-    facts->bifurcation = (options_.keep_loading || options_.ends_at_limit) && TakeCrossingThatLoads(at);
+    facts->bifurcation = options_.at_limit != AtLimit::kFollow && TakeCrossingThatLoads(at);
   }
   return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, facts);
 }
 
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
-  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
+  const std::vector<Branch> branches =
+      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
   const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
-    return SettingRate(branch.first) > current_.load_error;
+    return parameter_.Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
   });
   if (found == branches.end()) return false;
   TakeCurve(found->first, found->second, LoadFactor(), &current_);
@@ -189,10 +189,15 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   record->complete = at.event.crossing->across.size() == 1;
   record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
-  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
+  const std::vector<Branch> branches =
+      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
   RecordBranches(branches, record);
+  const bool stays_stable = options_.at_limit != AtLimit::kFollow && stability_;
+  const std::size_t stable = stays_stable ? StableBranch(branches) : branches.size();
+  facts->stable_ahead = stable < branches.size();
   End end_here;
-  const std::optional<std::size_t> taken = ChosenOf(branches, options_.ChoiceAt(increments_, events_), 0, &end_here);
+  const std::optional<std::size_t> taken =
+      ChosenOf(branches, options_.ChoiceAt(increments_, events_), facts->stable_ahead ? stable : 0, &end_here);
   if (!taken) return end_here;
   record->taken = static_cast<int>(*taken) + 1;
   if (*taken == 0) return std::nullopt;
@@ -237,7 +242,6 @@ std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice*
   arrival.singular = at.event.crossing.has_value() || at.event.singular;
   if (at_start_) arrival = departure_.StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.fails;
-  arrival.load_sense = options_.direction;
   return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
 }
 
@@ -324,6 +328,7 @@ bool BranchMethod::Balance(BalancedStep* step) const {
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
+  if (push_) return TakeJump(from, *std::exchange(push_, std::nullopt));
   if (departure_.ChangesReactions()) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
   std::optional<BalancedStep> next = NextBalancedStep();
@@ -373,11 +378,8 @@ Advance BranchMethod::Next(const PathPoint& from) {
       NoteStabilityBehind(*at, increment);
     increment.stability = stability_->record();
   }
-  if (!advance.end) NoteLimit(*at, increment, &advance);
   SetNextLength(*at);
-  // Where a disturbance sets out too slowly to be followed, it does so right behind.
-  if (advance.moves_off && increment.kind != IncrementKind::kRegular)
-    step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
+  NoteLimit(*at, increment, facts.stable_ahead, &advance);
   increment.solve.next_step = step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));

@@ -26,11 +26,12 @@ BranchOptions BranchOptions::For(const TraceOptions& options, double growth) {
   result.step = options.step > 0.0 ? options.step : result.step * growth;
   result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
   result.direction = options.Direction();
-  result.setting_sense = result.direction;
   result.choices = options.branch_choices;
   result.stability = options.stability == DefaultTrue::kTrue;
-  result.ends_at_limit = options.at_limit != AtLimit::kFollow;
+  result.at_limit = options.at_limit;
   result.machine_stiffness = options.machine_stiffness;
+  result.landing_checks = options.landing_checks;
+  result.forward = options.branch_rule == BranchRule::kForward;
   result.inner = options.Records("inner");
   return result;
 }

@@ -34,6 +34,7 @@ CsvWriter::CsvWriter(const ExpandedRequest& expanded)
       stresses_(expanded.Get().options.Records("stresses")),
       pressures_(expanded.Get().options.Records("pressures")),
       stability_(expanded.Get().options.stability == DefaultTrue::kTrue),
+      machine_(expanded.Get().options.machine_stiffness > 0.0),
       jumps_(expanded.Get().options.at_limit == AtLimit::kJump),
       checks_(jumps_ && expanded.Get().options.landing_checks),
       program_(!expanded.Get().program.empty()) {
@@ -70,6 +71,7 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
   for (const std::string& name : boundaries_)
     if (!name.empty()) line << ",rx_" << name << ",ry_" << name << ",rm_" << name;
   if (stability_) line << ",stability,stability_controlled,unstable_directions,critical_stiffness";
+  if (machine_) line << ",setting";
   if (jumps_) line << ",energy_released" << (checks_ ? ",landing_robust" : "");
   for (std::size_t i = 0; sections_ && i < elements_.NumSections(); ++i) {
     const std::string name = elements_.SectionName(i);
@@ -116,6 +118,7 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
     line << ',' << ToString(of.stability) << ',' << ToString(of.stability_controlled) << ',' << of.unstable_directions
          << ',' << of.critical_stiffness;
   }
+  if (machine_) line << ',' << increment.setting;
   if (jumps_) line << ',' << increment.jump.energy_released;
   if (checks_) line << ',' << (increment.jump.landing_robust ? 1 : 0);
   for (std::size_t i = 0; sections_ && i < increment.sections.size(); ++i) {

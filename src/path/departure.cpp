@@ -53,7 +53,8 @@ std::string_view SignOfRate(Inequality inequality) {
 
 void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
   for (const Branch& branch : branches)
-    record->branches.push_back({branch.states, branch.load_rate, branch.dissipation_rate, branch.turn});
+    record->branches.push_back(
+        {branch.states, branch.load_rate, branch.parameter_rate, branch.dissipation_rate, branch.turn});
 }
 
 std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
@@ -81,14 +82,16 @@ ActiveSetTolerance Departure::ToleranceAt(const PathPoint& point) const {
 Arrival Departure::StartArrival() const {
   Arrival arrival;
   arrival.is_start = true;
-  arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
-  arrival.direction *= options_.direction;
+  arrival.direction = options_.parameter.Gradient(model_.structure.NumDofs() + 1);
   return arrival;
 }
 
 std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice,
                                     ContactArc* arc, CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
+  arrival.parameter = options_.parameter;
+  arrival.forward =
+      options_.forward && options_.parameter.Sense(arrival.direction, arrival.direction.size()) >= 0;
   ActiveSetTolerance tolerance = ToleranceAt(point);
   tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
   const BranchSet on = FindBranches(model_.structure, model_.contacts, point, arrival, tolerance, cancelled_);
@@ -103,12 +106,13 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
     Append(StandsAtEnd(model_, point), &end.causes);
     return end;
   }
-  const std::size_t preferred = options_.keep_loading ? BestThatLoads(on.branches) : 0;
   End end;
-  const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, preferred, &end);
+  const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, 0, &end);
   if (!taken) return end;
   const Branch& branch = on.branches[*taken];
   if (branch.mechanism) return End{EndReason::kPathEnd, {{sentences::kBecameMechanism}}};
+  const bool goes_back = arrival.forward && branch.sense < 0 && choice == nullptr && !options_.ends_at_limit;
+  if (goes_back && !record->complete) return End{EndReason::kNotDetermined, {{sentences::kMayGoOn}}};
   record->taken = static_cast<int>(*taken) + 1;
   other_reactions_ = other_reactions_ || branch.other_reactions;
   if (!branch.rests)
@@ -144,14 +148,6 @@ bool Departure::SetOut(const PathPoint& point, const Branch& branch, ContactArc*
   TakeCurve(branch.first, branch.second, arc->NumMotion() - 1, current);
   current->BeSingular();
   return current->second.allFinite();
-}
-
-// The branch to take where the load is to go on: the best one, or if that turns back, the best that does not.
-std::size_t Departure::BestThatLoads(const std::vector<Branch>& branches) const {
-  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > tolerances::kRate; };
-  if (branches.front().load_rate * options_.direction >= -tolerances::kRate) return 0;
-  const auto best = std::find_if(branches.begin(), branches.end(), loads);
-  return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
 }
 
 }  // namespace contact_path

@@ -61,6 +61,22 @@ PathPoint Model::InitialPoint() const {
   return point;
 }
 
+Model::LoadSize Model::SizeOfLoads() const {
+  double forces = 0.0, moments = 0.0;
+  for (const DofMap::Component& of : structure.Dofs().Components()) {
+    if (of.dof < 0) continue;
+    double& sum = of.field == Field::kRotation ? moments : forces;
+    sum += std::pow(structure.ReferenceLoad()[of.dof], 2);
+  }
+  LoadSize size;
+  if (forces + moments == 0.0) return size;
+  size.norm = std::sqrt(forces > 0.0 ? forces : moments);
+  if (forces > 0.0) size.unit_of_displacement = scaling.length;
+  size.unit_of_stiffness =
+      size.norm * size.norm * scaling.force * scaling.length / std::pow(size.unit_of_displacement, 2);
+  return size;
+}
+
 std::vector<double> Model::ComponentsOf(const Eigen::VectorXd& motion) const {
   std::vector<double> components(configuration.start.size(), 0.0);
   for (const DofMap::Component& of : structure.Dofs().Components())

@@ -104,7 +104,8 @@ Preload TraceStart(const Model& model, Accuracy accuracy, const std::function<bo
     upwards.stability = DefaultTrue::kFalse;
     BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
     options.load_factor = target;
-    options.keep_loading = true;
+    options.forward = true;
+    options.at_limit = AtLimit::kStop;  // a limit point ends it
     return std::make_unique<BranchMethod>(of, options, cancelled);
   };
   Preload preload = TracePreload(start, kMostIncrements, make_method, cancelled);

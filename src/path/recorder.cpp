@@ -101,6 +101,7 @@ void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPo
   increment_.inner = accepted.inner ? InnerStateAt(model, *accepted.inner) : InnerState();
   increment_.index = increments_;
   increment_.load_factor = point.s * model.scaling.load_factor;
+  increment_.setting = accepted.setting;
   increment_.kind = accepted.kind;
   increment_.strain_energy = model.structure.Energy(point.u) * model.scaling.force * model.scaling.length;
   increment_.residuals = accepted.residuals;

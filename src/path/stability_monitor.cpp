@@ -123,7 +123,7 @@ void StabilityMonitor::Write(const Verdicts& of, const CurvePoint* at) {
   record_.stability_controlled = of.controlled.verdict;
   record_.unstable_directions = of.dead.directions;
   const double stiffness = CriticalStiffness(of, at);
-  record_.critical_stiffness = stiffness > 0.0 ? stiffness * model_.UnitOfMachineStiffness() : stiffness;
+  record_.critical_stiffness = stiffness > 0.0 ? stiffness * model_.SizeOfLoads().unit_of_stiffness : stiffness;
   record_.unstable_direction.clear();
   if (of.dead.verdict == Verdict::kUnstable && of.dead.direction.size() > 0)
     record_.unstable_direction = model_.ComponentsOf(of.dead.direction);

@@ -32,6 +32,7 @@ const Resultant& ResultantOf(const Quantity& quantity, const Increment& incremen
 double ValueOf(const Quantity& quantity, const Increment& increment) {
   switch (quantity.kind) {
     case Quantity::Kind::kLoadFactor: return increment.load_factor;
+    case Quantity::Kind::kSetting: return increment.setting;
     case Quantity::Kind::kObstacleX:
     case Quantity::Kind::kObstacleY:
     case Quantity::Kind::kTurn: break;

@@ -19,6 +19,7 @@
 #include "contact_path/path/earlier_trace.h"
 #include "contact_path/path/free_motion.h"
 #include "contact_path/path/largest_reaction.h"
+#include "contact_path/path/machine_setting.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/preload.h"
@@ -31,8 +32,6 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/stability/jump.h"
-#include "contact_path/stability/machine.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -124,6 +123,8 @@ class Tracer {
         point_ = std::move(preload.point);
       }
       model_ = std::move(next);
+      setting_.emplace(*model_, request_.options.machine_stiffness);
+      setting_->Begin(point_, resumption && stage == first ? resumption->from->setting : 0.0);
       largest_reaction_.of_stage = 0.0;
       returns_.emplace(*model_, std::max(request_.options.full_state_every, 1), largest_reaction_);
       if (!(resumption && stage == first ? ResumeStage(*model_, stage, *resumption)
@@ -168,24 +169,22 @@ class Tracer {
     return stiff;
   }
 
-  // increment: index of the one to set out from. load_sense: of the first change of the load factor, relative to the
-  // sense in which the path is loaded.
-  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment,
-                                         double load_sense = 1.0) {
+  // increment: index of the one to set out from.
+  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
     if (options.method == Method::kMpec) return control_.mpec({model, options, target, &*returns_, control_});
     BranchOptions branch = BranchOptions::For(options, AutomaticStepGrowth(model));
     branch.load_factor = target;
     branch.watch = [this, &model](const FixedStateSystem& system) {
-      return WatchedQuantities(model, request_, stage_, system);
+      return WatchedQuantities(model, request_, stage_, *setting_, system);
     };
     branch.increments = increment;
     branch.events = events_;
     branch.on_trial = control_.on_trial;
     branch.returns = &*returns_;
     branch.largest_reaction = &largest_reaction_;
-    branch.direction *= load_sense;
+    branch.forward = options.DrivesForward(target || !model.scene.support_motions.empty() || !model.scene.obstacle_motions.empty());
     return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
   }
 
@@ -260,14 +259,10 @@ class Tracer {
 
   bool FollowStage(const Model& model, std::size_t stage, std::unique_ptr<PathMethod> method) {
     NotePoint(point_);
-    const bool goes_on = Follow(model, TargetOf(model, stage), &method);
-    LeaveMethod(*method);
+    const bool goes_on = Follow(model, TargetOf(model, stage), method.get());
+    events_ = method->NumEvents();
+    Append(method->Remarks(), &remarks_);
     return goes_on && EndStage(stage);
-  }
-
-  void LeaveMethod(const PathMethod& method) {
-    events_ = method.NumEvents();
-    Append(method.Remarks(), &remarks_);
   }
 
   // otherwise: where the number of unstable directions is not known.
@@ -305,13 +300,13 @@ class Tracer {
     return EndBy(EndReason::kStopCriterion, {sentences::kProgramDone});
   }
 
-  // Until the target, or something ends the trace: then false. *method: the one that goes on behind a jump.
-  bool Follow(const Model& model, std::optional<double> target, std::unique_ptr<PathMethod>* method) {
+  // Until the target, or something ends the trace: then false.
+  bool Follow(const Model& model, std::optional<double> target, PathMethod* method) {
     for (;;) {
       if (control_.cancelled && control_.cancelled()) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
       if (HasAllIncrements()) return EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
       const Clock::time_point start = Clock::now();
-      Advance advance = (*method)->Next(point_);
+      Advance advance = method->Next(point_);
       const auto increments = static_cast<double>(std::max<std::size_t>(1, advance.increments.size()));
       const double time = Seconds(Clock::now() - start) / increments;
       for (AcceptedPoint& increment : advance.increments) {
@@ -319,15 +314,7 @@ class Tracer {
         if (HasAllIncrements()) break;
       }
       if (HasAllIncrements()) continue;
-      const bool jumps = request_.options.at_limit == AtLimit::kJump;
-      if (jumps && advance.end && advance.end->reason == EndReason::kPathEnd) advance.moves_off = arrival_;
-      if (jumps && advance.moves_off) {
-        const Landed landed = TakeJump(model, target, *advance.moves_off, advance.turns, method);
-        if (landed.goes_on) return *landed.goes_on;
-        if (landed.jumped) continue;
-      }
       if (advance.end) return EndWith(*std::move(advance.end));
-      if (!jumps && advance.moves_off) return EndBy(EndReason::kAtLimit, {sentences::kAtLimit});
     }
   }
 
@@ -339,10 +326,10 @@ class Tracer {
     const bool jumped = increment->kind == IncrementKind::kJump;
     if (Causes overrun = jumped ? Causes() : OverrunContact(model, point_, increment->point); !overrun.empty())
       return EndWith({EndReason::kNumericalFailure, std::move(overrun)});
+    increment->setting = setting_->At(increment->point.u, increment->point.s);
     recorder_.Append(model, *increment, time);
     may_snap_ = MaySnap(increment->stability, increment->stiffness_sign < 0);
     if (!jumped) returns_->Add(recorder_.increment().index, point_, increment->point);
-    arrival_ = Chord(point_, increment->point).head(point_.u.size());
     const PathPoint before = std::exchange(point_, std::move(increment->point));
     if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment(), increment->at_criteria))
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
@@ -352,68 +339,6 @@ class Tracer {
     return std::nullopt;
   }
 
-  struct Landed {
-    std::optional<bool> goes_on;  // as Take()
-    bool jumped = true;           // false: the structure is held after all
-  };
-
-  // Makes the method that goes on from an equilibrium with all contact states open to it. Under a machine the load may
-  // fall from there on, while its setting grows. Nothing: it has started.
-  std::optional<End> SetOut(const Model& model, std::optional<double> target, const Machine& machine,
-                            const PathPoint& from, StartRecord* found, std::unique_ptr<PathMethod>* method) {
-    std::optional<End> not_started;
-    for (const double load_sense : {1.0, -1.0}) {
-      *found = StartRecord();
-      *method = MakeMethod(model, target, recorder_.increments(), load_sense);
-      not_started = (*method)->Start(from, found);
-      if (!not_started && (machine.IsDead() || (*method)->LoadsOn())) break;
-    }
-    return not_started;
-  }
-
-  // The motion from the last increment while the machine rests, in an increment of its own, and the method that goes on
-  // from where the motion lands.
-  Landed TakeJump(const Model& model, std::optional<double> target, const Eigen::VectorXd& push, bool turns,
-                  std::unique_ptr<PathMethod>* method) {
-    const Clock::time_point start = Clock::now();
-    const Machine machine =
-        Machine::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
-    JumpResult jump = Jump(model.structure, model.contacts, point_, push, machine, request_.options.landing_checks,
-                           control_.cancelled);
-    if (jump.cancelled) return {EndBy(EndReason::kCancelled, {sentences::kCancelled})};
-    if (jump.came_back && !turns) return {std::nullopt, false};
-    if (jump.came_back) {
-      StartRecord found;
-      LeaveMethod(**method);
-      if (!SetOut(model, target, machine, point_, &found, method) && (*method)->LoadsOn()) return {};
-      return {EndBy(EndReason::kNoLanding, {sentences::kNoJump, {}, recorder_.increment().index})};
-    }
-    if (!jump.landing)
-      return {EndBy(EndReason::kNoLanding,
-                    {sentences::kNoLanding, {}, recorder_.increment().index, jump.followed * model.scaling.length})};
-    AcceptedPoint increment;
-    increment.kind = IncrementKind::kJump;
-    increment.point = std::move(jump.landing->point);
-    increment.arc_length = Distance(point_, increment.point);
-    const double unit = model.scaling.force * model.scaling.length;
-    increment.work = {unit * jump.landing->friction, unit * jump.landing->loads};
-    increment.jump = {unit * jump.landing->energy_released(), jump.robust};
-    // Coulomb's law holds on the way, and not between its ends.
-    increment.residuals = model.Check(increment.point, increment.point);
-    if (!(increment.residuals.Largest() <= tolerances::kAccepted))
-      return {EndBy(EndReason::kNumericalFailure, {sentences::kResiduals})};
-    increment.solve.method = request_.options.method;
-    increment.solve.exact = true;
-    LeaveMethod(**method);
-    StartRecord found;
-    const std::optional<End> not_started = SetOut(model, target, machine, increment.point, &found, method);
-    increment.event = std::move(found.branches);
-    increment.stability = std::move(found.stability);
-    const std::optional<bool> goes_on = Take(model, target, &increment, Seconds(Clock::now() - start));
-    if (!goes_on && not_started) return {EndWith(*not_started)};
-    return {goes_on};
-  }
-
   const TraceRequest& request_;
   const TraceControl& control_;
   const SceneIndex index_;  // of all stages
@@ -421,11 +346,11 @@ class Tracer {
   Recorder recorder_;
   StopTest stop_;
   PathPoint point_;
-  Eigen::VectorXd arrival_;  // du of the last increment
   bool may_snap_ = false;    // the last increment has, or may have, an unstable direction under dead loads
   int events_ = 0;
   std::size_t stage_ = 0;                  // from 0
   std::unique_ptr<const Model> model_;     // of the stage
+  std::optional<MachineSetting> setting_;  // of the stage
   std::optional<ReturnDetector> returns_;  // of the stage
   bool handing_out_ = false;               // an increment, to the caller
   LargestReactionSoFar largest_reaction_;

@@ -122,6 +122,8 @@ void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
   } else if (quantity->kind == Quantity::Kind::kLoadFactor) {
     if (!request_.program.empty())
       Add(key, text, "must be of a node or contact where there is a program: each stage has a target of its own");
+  } else if (quantity->kind == Quantity::Kind::kSetting) {
+    if (request_.options.machine_stiffness == 0.0) Add(key, text, "must go with a machine: see machine_stiffness");
   } else if (!FindQuantity(text, index_)) {
     const NearestName nearest = NearestPart(*quantity, request_.scene);
     const std::string question =

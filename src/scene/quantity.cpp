@@ -41,12 +41,12 @@ constexpr std::array<Component, 26> kComponents = {{{"x", Quantity::Kind::kX, un
                                                     {"szz", Quantity::Kind::kSzz, units::kStress},
                                                     {"mises", Quantity::Kind::kMises, units::kStress},
                                                     {"energy", Quantity::Kind::kEnergy, units::kMoment}}};
-constexpr std::string_view kLoadFactor = "load_factor";
+constexpr std::string_view kLoadFactor = "load_factor", kSetting = "setting";
 
 const Component* FindComponent(Quantity::Kind kind) {
   for (const Component& component : kComponents)
     if (component.kind == kind) return &component;
-  return nullptr;  // the load factor
+  return nullptr;  // the load factor, the setting
 }
 
 const Component* FindComponent(std::string_view word) {
@@ -80,12 +80,14 @@ std::optional<Quantity> FindInElements(Quantity::Kind kind, std::string_view nam
 }  // namespace
 
 Unit UnitOf(Quantity::Kind kind) {
+  if (kind == Quantity::Kind::kSetting) return units::kLength;
   const Component* const component = FindComponent(kind);
   return component != nullptr ? component->unit : units::kLoadFactor;
 }
 
 std::optional<SpelledQuantity> ReadQuantity(std::string_view text) {
   if (text == kLoadFactor) return SpelledQuantity();
+  if (text == kSetting) return SpelledQuantity{Quantity::Kind::kSetting, {}, false};
   // Names of sections and elements end with a point and a number, other names have no points.
   const std::size_t point = text.rfind('.'), line = text.find('_');
   const bool is_column = point == text.npos || FindComponent(text.substr(point + 1)) == nullptr;
@@ -103,7 +105,7 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
   if (!spelled) return std::nullopt;
   Quantity quantity;
   quantity.kind = spelled->kind;
-  if (quantity.kind == Quantity::Kind::kLoadFactor) return quantity;
+  if (quantity.kind == Quantity::Kind::kLoadFactor || quantity.kind == Quantity::Kind::kSetting) return quantity;
   if (quantity.IsOfSection() || quantity.IsOfElement()) return FindInElements(quantity.kind, spelled->name, index);
   if (quantity.kind == Quantity::Kind::kWidth) {
     const std::optional<std::size_t> boundary = index.FindBoundary(spelled->name);
@@ -148,6 +150,7 @@ NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
 NearestName NearestQuantity(std::string_view text, const Scene& scene) {
   NearestName nearest(text);
   nearest.Offer(kLoadFactor);
+  nearest.Offer(kSetting);
   const bool is_column = text.find('.') == text.npos;
   const auto offer = [&](const std::string& name, auto is_of) {
     for (const Component& component : kComponents)
@@ -179,7 +182,7 @@ std::string PartOf(Quantity::Kind kind) {
 
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column) {
   const Component* const component = FindComponent(kind);
-  if (component == nullptr) return std::string(kLoadFactor);
+  if (component == nullptr) return std::string(kind == Quantity::Kind::kSetting ? kSetting : kLoadFactor);
   std::string text(is_column ? component->word : name);
   text += is_column ? '_' : '.';
   return text.append(is_column ? name : component->word);

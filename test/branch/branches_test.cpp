@@ -38,6 +38,7 @@ struct Rest {
   BranchSet FromStart(double sign) {
     Arrival arrival;
     arrival.is_start = true;
+    arrival.parameter = PathParameter(sign);
     arrival.direction = sign * VectorXd::Unit(model.structure.NumDofs() + 1, model.structure.NumDofs());
     return Branches(arrival);
   }

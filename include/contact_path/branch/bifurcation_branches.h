@@ -12,7 +12,8 @@ namespace contact_path {
 
 // The arc itself, which goes on, comes first. Then both directions of each path that crosses the arc, without those
 // that let a contact slide back.
-std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing);
+std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing,
+                                        const PathParameter& parameter);
 
 }  // namespace contact_path
 

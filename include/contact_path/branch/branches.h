@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/branch/path_parameter.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
@@ -24,6 +25,8 @@ struct Branch {
   Eigen::VectorXd first;             // all unknowns of the fixed-state system: derivatives by arc length
   Eigen::VectorXd second;
   double load_rate = 0.0;         // ds
+  double parameter_rate = 0.0;    // PathParameter::Rate()
+  int sense = 0;                  // PathParameter::Sense()
   double dissipation_rate = 0.0;  // -r_t . du_t, >= 0
   double turn = 0.0;              // angle to the direction of arrival [rad]
   double reaction_rate = 0.0;     // norm of the rates of all reactions, each in its force unit
@@ -40,12 +43,13 @@ struct Branch {
 
 // Where the point comes from.
 struct Arrival {
-  Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: what is wanted, (0, +-1)
-  bool is_start = false;      // then ds must have the wanted sign, and there is no branch of arrival
+  Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: PathParameter::Gradient()
+  bool is_start = false;      // then the path parameter must go on, and there is no branch of arrival
   bool singular = false;      // another path crosses here: nearly singular counts as singular
   // After an arc that rests: the direction in which the path moved before that arc. To go on so is no turn either.
   std::optional<Eigen::VectorXd> before;
-  double load_sense = 1.0;  // +-1, the wanted change of the load factor: decides between branches that turn alike
+  PathParameter parameter;
+  bool forward = false;  // branches on which the parameter goes on come first, then those on which it rests
   // What fails at once on the branch that was taken here, which has the states of the point: though its rate is within
   // the tolerance, that branch does not lead on.
   std::optional<Constraint> failed;
@@ -62,8 +66,7 @@ enum class Completeness {
 std::string_view ToString(Completeness completeness);
 
 struct BranchSet {
-  std::vector<Branch> branches;  // best first: largest dissipation rate, then without mirror branch, then smallest
-                                 // deviation, then a fixed order
+  std::vector<Branch> branches;  // best first (branch_order.h)
   int weakly_active = 0;         // contacts that could change their state
   Completeness complete_by = Completeness::kAllCombinations;
   bool cancelled = false;  // before the end: nothing else counts
@@ -78,9 +81,9 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 
 // All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all contacts that slip,
 // and each contact with an inequality that is zero to `tolerance`. Of branches with equal directions one is kept: the
-// branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none,
-// reactions may have to change while nothing moves, as where a block that is carried along meets a stop. Then branches
-// are added for all other reactions that the point can have (reaction_redistribution.h). The complementarity problem of
+// branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or, with
+// Arrival::forward, on none the path parameter goes on, reactions may have to change while nothing moves, as where a
+// block that is carried along meets a stop. Then branches are added for all other reactions that the point can have (reaction_redistribution.h). The complementarity problem of
 // the rates (rate_complementarity.h) tells the branches where its solutions are the only ones, and where there are more
 // than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise, and where the solution for a sense
 // of the load neither leads on nor is the branch of arrival. Where there are more of them, and that problem does not

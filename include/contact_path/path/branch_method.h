@@ -11,6 +11,7 @@
 #include "contact_path/branch/contact_arc.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
+#include "contact_path/path/machine_setting.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/stability_monitor.h"
@@ -29,7 +30,6 @@ class BranchMethod : public PathMethod {
   bool Resume(const ResumePoint& at) override;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
-  bool LoadsOn() const override;
   int NumEvents() const override { return events_; }
   Causes Remarks() const override;
 
@@ -67,23 +67,33 @@ class BranchMethod : public PathMethod {
   void NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment);
   Eigen::MatrixXd NullDirections(const Crossing& crossing) const;
   Eigen::MatrixXd NullDirections(const ArcStep& at) const;
-  // Of the setting of the machine, in the sense of the loads, along a curve.
-  double SettingRate(const Eigen::VectorXd& first) const;
-  Eigen::VectorXd SettingRow() const;  // the same, by all unknowns
-  // Advance::turns and moves_off where the machine can go no further.
-  void NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const;
+  // Sets out from an equilibrium with all contact states that are open to it.
+  std::optional<End> SetOut(const PathPoint& from, StartRecord* found);
+  // Where the increment ends the machine can go no further on a stable path, as at_limit wants it: no branch leads on,
+  // the path parameter turns, or the equilibrium is unstable under the machine.
+  void NoteLimit(const ArcStep& at, const AcceptedPoint& increment, bool stable_ahead, Advance* advance);
+  // The direction (du) in which the structure leaves an equilibrium that is not held, contacts that may let go let go.
+  // along: to which it is turned, and where none is found.
+  Eigen::VectorXd Push(const PathPoint& point, const Eigen::VectorXd& along) const;
+  // The motion from the last increment while the machine rests, in an increment of its own, and the path from where it
+  // lands.
+  Advance TakeJump(const PathPoint& from, const Eigen::VectorXd& push);
+  // The first branch from a singular point of the curve on which the path parameter goes on, and which is stable under
+  // the machine as far as that is known; 0: none is, and the path itself goes on.
+  std::size_t StableBranch(const std::vector<Branch>& branches);
   // What is the case where an increment ends.
   struct Facts {
     bool contact_event = false, bifurcation = false, smooth_limit = false, sample = false, onset = false;
     bool leaves_curve = false;  // the path goes on along another curve
     bool load_turns = false;    // there
+    bool stable_ahead = false;  // though the point itself has a direction without stiffness
 
     IncrementKind Kind() const;
   };
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
   std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
-  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the
-  // setting of the machine grows there.
+  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the path parameter
+  // goes on there.
   bool TakeCrossingThatLoads(const ArcStep& at);
   std::optional<End> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   std::optional<End> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
@@ -116,8 +126,9 @@ class BranchMethod : public PathMethod {
 
   const Model& model_;
   BranchOptions options_;
+  const std::function<bool()> cancelled_;
   const Machine machine_;
-  const Eigen::VectorXd setting_row_;            // Machine::Row()
+  const PathParameter parameter_;
   std::unique_ptr<StabilityMonitor> stability_;  // null: not asked for
   Departure departure_;
   ContactArc arc_;
@@ -129,6 +140,9 @@ class BranchMethod : public PathMethod {
   int events_in_place_ = 0;       // passed without moving
   bool at_start_ = true;          // not moved yet
   std::optional<double> stored_;  // strain energy at current_, where it is known [force length]
+  std::optional<Eigen::VectorXd> push_;  // of the jump that comes next
+  bool turned_ = false;                  // why: the path parameter turns, or no branch leads on
+  bool came_back_ = false;               // a jump from the increment before did
 };
 
 }  // namespace contact_path

@@ -23,15 +23,15 @@ struct BranchOptions {
   double smallest_step = 1e-9;    // below this the path ends, > 0
   double prediction = 1e-3;       // largest error of the predictor, relative to the increment
   double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
-  double direction = 1.0;         // sign of the first change of the load factor
+  double direction = 1.0;         // sign in which the path parameter is wanted to go
   std::vector<BranchChoice> choices;
   TrialObserver on_trial = {};
   bool inner = false;              // increments are to have a state at the middle of their steps
   bool stability = false;          // increments are to have verdicts of stability
-  bool ends_at_limit = false;      // the path ends where the machine can go no further
+  AtLimit at_limit = AtLimit::kFollow;
   double machine_stiffness = 0.0;  // of TraceOptions
-  double setting_sense = 1.0;      // sign of the wanted change of the setting of the machine
-  bool keep_loading = false;       // at an event, rather than turn the load back, the best branch with which it goes on
+  bool landing_checks = false;     // of TraceOptions
+  bool forward = false;            // BranchRule::kForward
   std::optional<double> load_factor = {};  // at which the path is to end
   // Quantities of the system whose values get increments of their own; empty: none.
   std::function<ArcTargets(const FixedStateSystem& system)> watch = {};

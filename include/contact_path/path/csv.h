@@ -70,7 +70,7 @@ class CsvWriter {
   std::vector<SupportedNode> supports_;
   std::vector<std::string> touched_, boundaries_;  // names; of boundaries empty: no columns of forces
   ElementNames elements_;
-  bool sections_, stresses_, pressures_, stability_, jumps_, checks_;
+  bool sections_, stresses_, pressures_, stability_, machine_, jumps_, checks_;
   std::vector<bool> turn_;  // by node
   bool program_;
 };

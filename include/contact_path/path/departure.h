@@ -11,6 +11,7 @@
 #include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/path_parameter.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
@@ -21,8 +22,9 @@
 namespace contact_path {
 
 struct DepartureOptions {
-  double direction = 1.0;     // sign of the wanted change of the load factor
-  bool keep_loading = false;  // where the best branch unloads, the best one that does not is taken
+  PathParameter parameter;
+  bool forward = false;        // BranchRule::kForward
+  bool ends_at_limit = false;  // a branch on which the parameter goes back is not followed
   LargestReactionSoFar* largest_reaction = nullptr;  // of the trace that the path is a part of; null: of this path
 };
 
@@ -51,13 +53,17 @@ class Departure {
 
   // Whether the branch that was taken last begins with other reactions than the point has, and these, once.
   bool ChangesReactions() const { return begin_.has_value(); }
+  // Nothing of the path so far counts for a path that begins anew.
+  void Restart() {
+    begin_.reset();
+    moved_.reset();
+  }
   PathPoint TakeBegin() { return *std::exchange(begin_, std::nullopt); }
   // Whether a branch that was taken could have other reactions.
   bool other_reactions() const { return other_reactions_; }
 
  private:
   bool SetOut(const PathPoint& point, const Branch& branch, ContactArc* arc, CurvePoint* current) const;
-  std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
   End UnknownRate(const Constraint& constraint, const FixedStateSystem& system, const CurvePoint& at) const;
 
   const Model& model_;

@@ -39,7 +39,7 @@ struct StabilityRecord {
   Verdict stability = Verdict::kNotAsked;             // under dead loads: the load factor keeps its value
   Verdict stability_controlled = Verdict::kNotAsked;  // the displacement of the loads keeps its value
   int unstable_directions = -1;                       // under dead loads; -1 = not known
-  // Above this stiffness of the machine (TraceOptions::machine_stiffness) the point is stable; 0 = also under dead
+  // Above this stiffness K of the machine (TraceOptions::machine_stiffness) the point is stable; 0 = also under dead
   // loads, infinite = under no machine, -1 = not known.
   double critical_stiffness = -1.0;
   // x0, y0, x1, ... of the direction of unit norm in which a disturbance grows under dead loads; empty = none is known.
@@ -132,6 +132,7 @@ constexpr auto Fields(Of<SolveRecord>) {
 struct BranchRecord {
   std::vector<ContactState> states;  // by candidate, in scene order
   double load_rate = 0.0;            // of the scaled load factor, -1..1
+  double parameter_rate = 0.0;       // of the path parameter in its wanted sense, over its largest, -1..1
   double dissipation_rate = 0.0;     // scaled, >= 0; by the total law of friction 0
   double turn = 0.0;                 // angle to the direction of arrival [rad]
 };
@@ -139,6 +140,7 @@ struct BranchRecord {
 template <typename P>
 constexpr auto Fields(Of<BranchRecord>) {
   return std::tuple(Member("states", &P::states), Member("load_rate", &P::load_rate),
+                    Member("parameter_rate", &P::parameter_rate),
                     Member("dissipation_rate", &P::dissipation_rate), Member("turn", &P::turn));
 }
 
@@ -165,6 +167,7 @@ struct Increment {
   int index = 0;
   int stage = 0;             // of the program, from 1; 0 = there is none
   double load_factor = 0.0;  // of the stage
+  double setting = 0.0;      // X of the machine (TraceOptions::machine_stiffness), 0 where the stage begins
   double arc_length = 0.0;   // since increment 0, in the scaled norm
   IncrementKind kind = IncrementKind::kRegular;
   std::vector<double> positions;  // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
@@ -194,7 +197,7 @@ struct Increment {
 template <typename P>
 constexpr auto Fields(Of<Increment>) {
   return std::tuple(Member("index", &P::index), Member("stage", &P::stage), Member("load_factor", &P::load_factor),
-                    Member("arc_length", &P::arc_length), Member("kind", &P::kind),
+                    Member("setting", &P::setting), Member("arc_length", &P::arc_length), Member("kind", &P::kind),
                     Member("dissipation", &P::dissipation), Member("strain_energy", &P::strain_energy),
                     Member("external_work", &P::external_work), Member("supports", &P::supports),
                     Member("boundaries", &P::boundaries), Member("sections", &P::sections),

@@ -47,10 +47,15 @@ struct Model {
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
-  // k of TraceOptions over the scaled one: of s over f . u.
-  double UnitOfMachineStiffness() const {
-    return scaling.load_factor * scaling.load_factor / (scaling.force * scaling.length);
-  }
+  // Of the loads f that the load factor scales: |f|, scaled, the norm of the forces, or of the moments where there are
+  // no forces; the unit of x = f . u / |f|, of length, or 1 [rad] of moments alone; and K of TraceOptions over the
+  // scaled k of s = k (Q - f . u).
+  struct LoadSize {
+    double norm = 0.0;  // 0: there are no such loads
+    double unit_of_displacement = 1.0;
+    double unit_of_stiffness = 1.0;
+  };
+  LoadSize SizeOfLoads() const;
   // x0, y0, x1, ... over the nodes of a motion of the unknowns, NumDofs() or more entries: 0 where nothing is free.
   std::vector<double> ComponentsOf(const Eigen::VectorXd& motion) const;
 

@@ -18,6 +18,7 @@ namespace contact_path {
 struct AcceptedPoint {
   PathPoint point;
   IncrementKind kind = IncrementKind::kRegular;
+  double setting = 0.0;            // of the machine (Increment::setting)
   double arc_length = 0.0;         // of the increment, scaled norm
   Work work;                       // of the increment
   std::optional<PathPoint> inner;  // at the middle of its step, where it is wanted
@@ -45,11 +46,9 @@ inline bool IsAtTarget(double load_factor, double target) {
 struct Advance {
   std::vector<AcceptedPoint> increments;  // in order; may hold increments also where the path ended
   std::optional<End> end;                 // nothing: the path goes on
-  // du with which the structure moves off from the last increment, where the machine that loads it can go no further on
-  // a stable path; nothing: it can, or that is no end.
-  std::optional<Eigen::VectorXd> moves_off = {};
-  bool turns = false;  // with moves_off: the setting of the machine would have to go back
 };
+
+inline Advance Ended(End end) { return {{}, std::move(end)}; }
 
 // An increment of an earlier path to go on from, one that is no event.
 struct ResumePoint {
@@ -65,9 +64,6 @@ class PathMethod {
   // Sets out from the initial point, once, before the first Next(). `found`: what is found there. Nothing: done.
   // Otherwise the path ends where it begins.
   virtual std::optional<End> Start(const PathPoint& from, StartRecord* found) = 0;
-  // Whether the setting of the machine grows along the path as it sets out, in the sense of the loads.
-  virtual bool LoadsOn() const { return true; }
-
   // Goes on in place of Start(). False: that is not possible here.
   virtual bool Resume(const ResumePoint& at) = 0;
 

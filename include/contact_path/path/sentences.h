@@ -27,6 +27,9 @@ inline constexpr Sentence kNoLanding =
     "the jump from increment <value> comes to no equilibrium: it was followed until a node had moved by <other>";
 inline constexpr Sentence kNoJump =
     "the machine can go no further, and the jump from increment <value> comes back to where it began";
+inline constexpr Sentence kMayGoOn =
+    "no branch was found with which the load goes on, and there are too many combinations of contact states to try them "
+    "all: see branch_rule";
 
 // Where branches part, and where none leads on.
 inline constexpr Sentence kNoBranch =

@@ -18,6 +18,7 @@ namespace contact_path {
 struct Quantity {
   enum class Kind {
     kLoadFactor,  // load_factor
+    kSetting,     // setting: of the machine that loads the structure
     kX,           // <node>.x, or x_<node>: current position
     kY,           // <node>.y, or y_<node>
     // <obstacle>.x, or x_<obstacle>: of its point p, where it is now. Of a node and an obstacle with one name the node

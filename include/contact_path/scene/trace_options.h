@@ -62,6 +62,21 @@ struct Words<AtLimit> {
       {"follow", AtLimit::kFollow}, {"stop", AtLimit::kStop}, {"jump", AtLimit::kJump}};
 };
 
+// Which branch a path takes at an event.
+enum class BranchRule {
+  kAutomatic,    // kForward in stages with a target and where supports or obstacles move, else kDissipation
+  kForward,      // where the path parameter goes on: one on which it goes on, else one on which it rests
+  kDissipation,  // the one that dissipates most
+};
+
+template <>
+struct Words<BranchRule> {
+  static constexpr BranchRule kDefault = BranchRule::kAutomatic;
+  static constexpr std::pair<std::string_view, BranchRule> kAll[] = {{"automatic", BranchRule::kAutomatic},
+                                                                     {"forward", BranchRule::kForward},
+                                                                     {"dissipation", BranchRule::kDissipation}};
+};
+
 // A flag that is true where it is left out. Words in files and messages, since a message has no such flag.
 enum class DefaultTrue {
   kTrue,
@@ -143,12 +158,14 @@ struct TraceOptions {
   // Long lists that increments, bags and the CSV carry: "sections", of bars and beams; "stresses", of solids;
   // "pressures", of contacts. And "inner", a state inside each increment, which bags carry for verify.
   std::vector<std::string> record;
+  BranchRule branch_rule = BranchRule::kAutomatic;
   std::vector<BranchChoice> branch_choices;
   FrictionLaw friction_law = FrictionLaw::kIncremental;
   DefaultTrue stability = DefaultTrue::kTrue;  // the verdict of stability of each increment is looked for
   AtLimit at_limit = AtLimit::kFollow;
-  // k of the machine that loads the structure: with loads f, it keeps s = k (Q - f . u), Q growing. >= 0; 0 = dead
-  // loads, infinite = the displacement f . u of the loads is prescribed [force / length where f is one force of 1].
+  // K of the machine that loads the structure: with loads f it keeps s |f| = K (X - x), X growing, x = f . (u - u_0) /
+  // |f|, u_0 where the stage begins. |f|: the norm of the forces, or of the moments where there are no forces. >= 0; 0 =
+  // dead loads, infinite = x is prescribed [force / length, or moment / rad].
   double machine_stiffness = 0.0;
   bool landing_checks = false;  // whether other motions land where a jump lands is looked for
 
@@ -160,6 +177,11 @@ struct TraceOptions {
   int LastIncrement(int first) const { return max_increments == 0 ? first + 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
   bool Records(std::string_view list) const { return std::find(record.begin(), record.end(), list) != record.end(); }
+  // Whether BranchRule::kForward holds. driven: in a stage with a target, or where supports or obstacles move.
+  bool DrivesForward(bool driven) const {
+    return branch_rule == BranchRule::kForward ||
+           (branch_rule == BranchRule::kAutomatic && driven && LocatesEvents());
+  }
   // Whether corners are located, each at the end of an increment, and on record as events.
   bool LocatesEvents() const { return method == Method::kBranch; }
 };
@@ -171,7 +193,7 @@ constexpr auto Fields(Of<TraceOptions>) {
                     Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
                     Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
                     Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
-                    Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
+                    Member("branch_rule", &P::branch_rule), Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
                     Member("stability", &P::stability), Member("at_limit", &P::at_limit),
                     Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite),
                     Member("landing_checks", &P::landing_checks));

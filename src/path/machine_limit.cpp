@@ -1,0 +1,145 @@
+// Where the machine that loads the structure can go no further on a stable path.
+#include <algorithm>
+#include <utility>
+
+#include "contact_path/branch/bifurcation_branches.h"
+#include "contact_path/path/branch_method.h"
+#include "contact_path/path/sentences.h"
+#include "contact_path/stability/jump.h"
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kAhead = 0.1;  // of the wanted step: where a branch from a singular point shows whether it is stable
+
+}  // namespace
+
+std::optional<End> BranchMethod::SetOut(const PathPoint& from, StartRecord* found) {
+  at_start_ = true;
+  events_in_place_ = 0;
+  stored_.reset();
+  step_length_ = options_.step;
+  departure_.Restart();
+  std::optional<End> end = departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_,
+                                            &current_, &found->branches);
+  if (stability_) {
+    PathPoint leaves = from;
+    if (!end) leaves.states = arc_.system().states();
+    if (!end) leaves.patches = arc_.system().patches();
+    stability_->Start(leaves, end ? nullptr : &current_);
+    found->stability = stability_->record();
+  }
+  return end;
+}
+
+std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
+  const Eigen::Index n = arc_.NumMotion();
+  const double length = kAhead * options_.step;
+  const auto leads_on = [&](const Branch& branch) {
+    if (parameter_.Sense(branch.first, branch.second, n, tolerances::kRate) <= 0) return false;
+    const Eigen::VectorXd ahead = current_.x + length * branch.first + 0.5 * length * length * branch.second;
+    const Correction there = arc_.CorrectOnPlane(ahead, branch.first.head(n));
+    return there.converged && parameter_.Rate(there.x - current_.x, n) > 0.0 &&
+           stability_->At(arc_.system().Unpack(there.x)) == Verdict::kStable;
+  };
+  return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
+}
+
+void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, bool stable_ahead, Advance* advance) {
+  if (options_.at_limit == AtLimit::kFollow || stable_ahead) return;
+  const bool none = advance->end && advance->end->reason == EndReason::kPathEnd;
+  if (advance->end && !none) return;
+  const Eigen::Index n = arc_.NumMotion();
+  const bool turns = !none && parameter_.Sense(current_.first, current_.second, n, tolerances::kRate) < 0;
+  const bool unstable = stability_ && stability_->UnderMachine() == Verdict::kUnstable;
+  if (options_.at_limit == AtLimit::kStop) {
+    if (turns || (unstable && !none)) advance->end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
+    return;
+  }
+  if (!none && !turns && !unstable) {
+    came_back_ = false;
+    return;
+  }
+  advance->end.reset();
+  turned_ = none || turns;
+  const Eigen::MatrixXd null_directions = NullDirections(at);
+  Eigen::VectorXd along = (none ? at.step.end : current_).first.head(LoadFactor());
+  const bool moves = along.norm() > tolerances::kRate;
+  if (!moves) along = at.step.end.first.head(LoadFactor());
+  if (null_directions.cols() > 0)
+    push_ = turns ? along : Eigen::VectorXd(null_directions.col(0));
+  else
+    push_ = turns && moves && at.event.Kind() != EventKind::kContactEvent ? along : Push(increment.point, along);
+}
+
+Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd& along) const {
+  const ActiveSetTolerance tolerance = departure_.ToleranceAt(point);
+  PathPoint released = point;
+  for (std::size_t i = 0; i < released.states.size(); ++i) {
+    const ContactPair& pair = *model_.contacts[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    ContactState& state = released.states[i];
+    if (state == ContactState::kOpen) continue;
+    const double cone = pair.Friction() * point.rn[k] - std::abs(point.rt[k]);
+    if (point.rn[k] <= tolerance.force * pair.NormalForceUnit())
+      state = ContactState::kOpen;
+    else if (state == ContactState::kStick && !pair.HasTotalLaw() && cone <= tolerance.force * pair.ForceUnit())
+      state = point.rt[k] < 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus;
+  }
+  StabilityProblem problem(model_.structure, model_.contacts);
+  problem.Set(released, {});
+  const Stability found = problem.Under(machine_.IsDead() ? INFINITY : machine_.Compliance());
+  if (found.verdict != Verdict::kUnstable || found.direction.size() == 0) return along;
+  return found.direction.dot(along) < 0.0 ? Eigen::VectorXd(-found.direction) : found.direction;
+}
+
+Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& push) {
+  JumpResult jump =
+      Jump(model_.structure, model_.contacts, from, push, machine_, options_.landing_checks, cancelled_);
+  if (jump.cancelled) return Ended({EndReason::kCancelled, {{sentences::kCancelled}}});
+  if (jump.came_back) {
+    const End held = {EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
+    if (std::exchange(came_back_, true)) return Ended(held);
+    if (!turned_) {
+      // Where a disturbance sets out too slowly to be followed, it does so right behind.
+      step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
+      return {};
+    }
+    StartRecord found;
+    if (SetOut(from, &found)) return Ended(held);
+    return {};
+  }
+  if (!jump.landing)
+    return Ended({EndReason::kNoLanding,
+                  {{sentences::kNoLanding, {}, increments_, jump.followed * model_.scaling.length}}});
+  came_back_ = false;
+  ++increments_;
+  AcceptedPoint increment;
+  increment.kind = IncrementKind::kJump;
+  increment.point = std::move(jump.landing->point);
+  increment.arc_length = Distance(from, increment.point);
+  const double unit = model_.scaling.force * model_.scaling.length;
+  increment.work = {unit * jump.landing->friction, unit * jump.landing->loads};
+  increment.jump = {unit * jump.landing->energy_released(), jump.robust};
+  // Coulomb's law holds on the way, and not between its ends.
+  increment.residuals = model_.Check(increment.point, increment.point);
+  if (!(increment.residuals.Largest() <= tolerances::kAccepted))
+    return Ended({EndReason::kNumericalFailure, {{sentences::kResiduals}}});
+  increment.solve.method = Method::kBranch;
+  increment.solve.exact = true;
+  StartRecord found;
+  Advance advance;
+  advance.end = SetOut(increment.point, &found);
+  increment.event = std::move(found.branches);
+  increment.stability = std::move(found.stability);
+  if (stability_ && stability_->UnderMachine() == Verdict::kUnstable) {
+    push_ = Push(increment.point, push);
+    turned_ = advance.end.has_value();
+    advance.end.reset();
+  }
+  advance.increments.push_back(std::move(increment));
+  return advance;
+}
+
+}  // namespace contact_path
