@@ -213,7 +213,9 @@ std::optional<std::vector<Constraint>> BranchFinder::BrokenOf(const States& stat
 bool BranchFinder::Admissible(const Tangents& tangents, std::size_t k, const Eigen::VectorXd& x,
                               const Eigen::VectorXd& first) {
   const Eigen::VectorXd& second = tangents.second[k];
-  if (arrival_.is_start && (tangents.rigid || !SetsOut(x, first, second, tangents.load_error[k]))) return false;
+  // Under a dead load nothing tells which way a part moves that nothing resists; a machine takes it along.
+  const bool loose = tangents.rigid && arrival_.parameter.IsLoadFactor();
+  if (arrival_.is_start && (loose || !SetsOut(x, first, second, tangents.load_error[k]))) return false;
   if (!arrival_.is_start && IsReversed(first)) return false;
   return Broken(x, first, second, 1).empty();
 }

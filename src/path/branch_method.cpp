@@ -26,8 +26,7 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       machine_(MachineSetting(model, options.machine_stiffness).machine()),
       parameter_(MachineSetting(model, options.machine_stiffness).Parameter(options.direction)),
       stability_(options.stability ? std::make_unique<StabilityMonitor>(model, machine_) : nullptr),
-      departure_(model,
-                 {parameter_, options.forward, options.at_limit != AtLimit::kFollow, options.largest_reaction},
+      departure_(model, {parameter_, options.forward, options.at_limit != AtLimit::kFollow, options.largest_reaction},
                  cancelled_),
       arc_(model.structure, model.contacts),
       step_length_(options.step),
@@ -173,8 +172,7 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
 }
 
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
-  const std::vector<Branch> branches =
-      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
+  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
   const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
     return parameter_.Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
   });
@@ -189,8 +187,7 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   record->complete = at.event.crossing->across.size() == 1;
   record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
-  const std::vector<Branch> branches =
-      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
+  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
   RecordBranches(branches, record);
   const bool stays_stable = options_.at_limit != AtLimit::kFollow && stability_;
   const std::size_t stable = stays_stable ? StableBranch(branches) : branches.size();

@@ -90,8 +90,7 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
                                     ContactArc* arc, CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
   arrival.parameter = options_.parameter;
-  arrival.forward =
-      options_.forward && options_.parameter.Sense(arrival.direction, arrival.direction.size()) >= 0;
+  arrival.forward = options_.forward && options_.parameter.Sense(arrival.direction, arrival.direction.size()) >= 0;
   ActiveSetTolerance tolerance = ToleranceAt(point);
   tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
   const BranchSet on = FindBranches(model_.structure, model_.contacts, point, arrival, tolerance, cancelled_);

@@ -95,8 +95,7 @@ Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd
 }
 
 Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& push) {
-  JumpResult jump =
-      Jump(model_.structure, model_.contacts, from, push, machine_, options_.landing_checks, cancelled_);
+  JumpResult jump = Jump(model_.structure, model_.contacts, from, push, machine_, options_.landing_checks, cancelled_);
   if (jump.cancelled) return Ended({EndReason::kCancelled, {{sentences::kCancelled}}});
   if (jump.came_back) {
     const End held = {EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
@@ -111,8 +110,8 @@ Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& pus
     return {};
   }
   if (!jump.landing)
-    return Ended({EndReason::kNoLanding,
-                  {{sentences::kNoLanding, {}, increments_, jump.followed * model_.scaling.length}}});
+    return Ended(
+        {EndReason::kNoLanding, {{sentences::kNoLanding, {}, increments_, jump.followed * model_.scaling.length}}});
   came_back_ = false;
   ++increments_;
   AcceptedPoint increment;

@@ -184,7 +184,8 @@ class Tracer {
     branch.on_trial = control_.on_trial;
     branch.returns = &*returns_;
     branch.largest_reaction = &largest_reaction_;
-    branch.forward = options.DrivesForward(target || !model.scene.support_motions.empty() || !model.scene.obstacle_motions.empty());
+    branch.forward =
+        options.DrivesForward(target || !model.scene.support_motions.empty() || !model.scene.obstacle_motions.empty());
     return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
   }
 
@@ -346,7 +347,7 @@ class Tracer {
   Recorder recorder_;
   StopTest stop_;
   PathPoint point_;
-  bool may_snap_ = false;    // the last increment has, or may have, an unstable direction under dead loads
+  bool may_snap_ = false;  // the last increment has, or may have, an unstable direction under dead loads
   int events_ = 0;
   std::size_t stage_ = 0;                  // from 0
   std::unique_ptr<const Model> model_;     // of the stage

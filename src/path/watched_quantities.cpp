@@ -84,15 +84,16 @@ double ErrorOf(const Model& model, const Quantity& quantity, double largest) {
   const bool is_force =
       quantity.IsReaction() || quantity.kind == Quantity::Kind::kRn || quantity.kind == Quantity::Kind::kRt;
   if (is_force) return std::max(tolerances::kLastDigits * largest, of_forces);
-  const bool is_motion = quantity.kind <= Quantity::Kind::kSetting || quantity.IsOfNode() ||
-                         quantity.IsOfObstacle() || quantity.IsOfContact();
+  const bool is_motion = quantity.kind <= Quantity::Kind::kSetting || quantity.IsOfNode() || quantity.IsOfObstacle() ||
+                         quantity.IsOfContact();
   if (is_motion && !quantity.IsOfPressure()) return of_size * model.structure.ResidualUnits().maxCoeff();
   return std::max(of_size, of_forces);
 }
 
 // sense, criterion: as of ArcTarget.
 void Add(const Model& model, const TraceRequest& request, std::size_t stage, const MachineSetting& setting,
-         const FixedStateSystem& system, const std::string& text, const std::vector<double>& values, double sense, int criterion, ArcTargets* targets) {
+         const FixedStateSystem& system, const std::string& text, const std::vector<double>& values, double sense,
+         int criterion, ArcTargets* targets) {
   const Quantity quantity = FindQuantity(text, model.index).value();
   const Scaling& scaling = model.scaling;
   const double unit = SizeOf(UnitOf(quantity.kind), {scaling.length, scaling.force, scaling.load_factor});
@@ -134,8 +135,8 @@ ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, st
   for (std::size_t i = 0; i < request.options.stop.size(); ++i) {
     const StopCriterion& criterion = request.options.stop[i];
     if (criterion.exact == DefaultTrue::kTrue)
-      Add(model, request, stage, setting, system, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0,
-          static_cast<int>(i), &targets);
+      Add(model, request, stage, setting, system, criterion.quantity, {criterion.value},
+          criterion.when == ">" ? 1.0 : -1.0, static_cast<int>(i), &targets);
   }
   for (const Samples& samples : request.options.at)
     Add(model, request, stage, setting, system, samples.quantity, samples.Values(), 0.0, -1, &targets);

@@ -70,6 +70,7 @@ void LoadingRules::CheckWhatMoves() {
                      "must be true where there is a program: loads that a load factor scales belong to a stage");
     return;
   }
+  CheckMachine(kScene, scene_.loads, scene_.support_motions, scene_.obstacle_motions);
   if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(scene_.loads) &&
       scene_.support_motions.empty() && scene_.obstacle_motions.empty()) {
     checker_.Add(list, scene_.loads.empty() ? "[]" : "no net force",
@@ -99,6 +100,7 @@ void LoadingRules::CheckStage(const KeyPath& path, std::size_t number) {
       checker_.Add(loads[checker_.LoadPlace(number + 1, k)].Key("constant"), "true",
                    "must be false: constant loads belong to the scene");
   CheckMotions(path, number + 1, stage.support_motions, stage.obstacle_motions);
+  CheckMachine(path, stage.loads, stage.support_motions, stage.obstacle_motions);
   if (stage.unload)
     CheckUnloading(path, stage, sound);
   else if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(stage.loads) &&
@@ -152,6 +154,17 @@ bool LoadingRules::CheckMotion(const KeyPath& path, double dx, double dy, double
   checker_.Add(path, "no motion",
                std::string("dx, dy or ") + name_of_turn + " must not be zero (length at least 1e-100)");
   return false;
+}
+
+void LoadingRules::CheckMachine(const KeyPath& where, const std::vector<Load>& loads,
+                                const std::vector<SupportMotion>& supports,
+                                const std::vector<ObstacleMotion>& obstacles) {
+  const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Load& load) { return !load.constant; });
+  if (!(checker_.Request().options.machine_stiffness > 0.0) || !loaded || (supports.empty() && obstacles.empty()))
+    return;
+  checker_.Add(
+      where.Key(supports.empty() ? "obstacle_motions" : "support_motions"), "",
+      "must be empty where a machine loads the structure (machine_stiffness): a stage has a machine or motions");
 }
 
 void LoadingRules::CheckMotions(const KeyPath& where, std::size_t loading, const std::vector<SupportMotion>& supports,

@@ -47,6 +47,9 @@ class LoadingRules {
   // loading: as of Checker::LoadPlace.
   void CheckLoads(const KeyPath& where, std::size_t loading, const std::vector<Load>& loads);
   void CheckWhatMoves();
+  // A machine and motions in one stage have no one path parameter.
+  void CheckMachine(const KeyPath& where, const std::vector<Load>& loads, const std::vector<SupportMotion>& supports,
+                    const std::vector<ObstacleMotion>& obstacles);
   void CheckMotions(const KeyPath& where, std::size_t loading, const std::vector<SupportMotion>& supports,
                     const std::vector<ObstacleMotion>& obstacles);
   void CheckSupportMotion(const KeyPath& path, const SupportMotion& motion, std::unordered_set<std::string>* moved);

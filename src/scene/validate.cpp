@@ -47,6 +47,9 @@ void CheckOptions(Checker* checker) {
   if (!options.LocatesEvents() && options.at_limit != AtLimit::kFollow)
     checker->Add(path.Key("at_limit"), std::string(ToString(options.at_limit)),
                  "must be follow with method mpec, which does not locate limit points");
+  if (!options.LocatesEvents() && options.branch_rule == BranchRule::kForward)
+    checker->Add(path.Key("branch_rule"), "forward",
+                 "must be dissipation with method mpec, which has the paper's rule");
   if (!options.LocatesEvents() && !options.at.empty())
     checker->Add(path.Key("at"), "", "must be empty with method mpec, which does not locate values");
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)

@@ -109,31 +109,56 @@ void IntegralChecks::CheckJump(const Increment& last, const Increment* before, c
   const double chord = std::sqrt(Product(motion, motion));
   findings_.Bound("arc length of the jump less its chord", std::abs(recorded.arc - chord),
                   kExact * chord + stage_.rounding);
-  // f . du of the loads that the load factor scales, and what the machine makes of it, over F L and the load factor.
-  double along = 0.0, size = 0.0;
-  for (const Load& of : stage_.scene.loads) {
-    if (of.constant) continue;
-    const std::size_t node = stage_.index.Node(of.node);
-    const double moment = of.moment != 0.0 ? of.moment * (landing.rotations[node] - before->rotations[node]) : 0.0;
-    along += of.fx * (landing.positions[2 * node] - before->positions[2 * node]) +
-             of.fy * (landing.positions[2 * node + 1] - before->positions[2 * node + 1]) + moment;
-    size += std::hypot(of.fx, of.fy, of.moment / stage_.scaling.length);
-  }
-  const double loads = stage_.scaling.load_factor, scaled = along * loads / energy;
-  const double of_motion = (kExact * chord + recorded.rounding) * (1.0 + size * loads / stage_.scaling.force);
+  double size = 0.0;
+  for (const Load& of : stage_.scene.loads)
+    if (!of.constant) size += std::hypot(of.fx, of.fy, of.moment / stage_.scaling.length);
+  const double of_motion =
+      (kExact * chord + recorded.rounding) * (1.0 + size * stage_.scaling.load_factor / stage_.scaling.force);
   const double dead = motion.back();
-  if (machine_stiffness == 0.0 || size == 0.0) {
+  if (machine_stiffness == 0.0 || size == 0.0)
     findings_.Bound("the load factor changes in a jump under dead loads", std::abs(dead), stage_.rounding);
-  } else {
-    const double given = dead * loads * loads / (machine_stiffness * energy);  // 0 by prescribed displacement
-    findings_.Bound("the setting of the machine changes in a jump, over F L", std::abs(scaled + given),
-                    of_motion + kExact * std::abs(given));
-  }
+  findings_.Bound("the setting of the machine changes in a jump, over L",
+                  std::abs(landing.setting - last.setting) / stage_.scaling.length,
+                  kExact * std::abs(last.setting) / stage_.scaling.length + of_motion);
   // Forces of moving supports and obstacles are not linear along the way.
   if (stage_.Driven() && dead != 0.0) return;
   const Integral work = Work(ends, ThreePoints(0.0));
   findings_.Bound("work of the loads over a jump is off, over F L", std::abs(recorded.work - work.value),
                   rounding + of_motion * work.force);
+}
+
+void IntegralChecks::CheckSetting(const Increment& before, const Increment& increment, double machine_stiffness) {
+  // The loads that the load factor scales, of free components: by node fx, fy, moment.
+  std::vector<std::array<double, 3>> loads(stage_.scene.nodes.size());
+  for (const Load& of : stage_.scene.loads) {
+    if (of.constant) continue;
+    const std::size_t i = stage_.index.Node(of.node);
+    const Node& node = stage_.scene.nodes[i];
+    const std::array<double, 3> free = {node.fixed_x ? 0.0 : of.fx, node.fixed_y ? 0.0 : of.fy,
+                                        node.fixed_rotation ? 0.0 : of.moment};
+    for (std::size_t k = 0; k < free.size(); ++k) loads[i][k] += free[k];
+  }
+  double forces = 0.0, moments = 0.0, work = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const auto& [fx, fy, moment] = loads[i];
+    forces += fx * fx + fy * fy;
+    moments += moment * moment;
+    work += fx * (increment.positions[2 * i] - before.positions[2 * i]) +
+            fy * (increment.positions[2 * i + 1] - before.positions[2 * i + 1]);
+    if (moment != 0.0) work += moment * (increment.rotations[i] - before.rotations[i]);
+    moved = std::max({moved, std::abs(increment.positions[2 * i]), std::abs(increment.positions[2 * i + 1])});
+  }
+  const double size = std::sqrt(forces > 0.0 ? forces : moments);
+  if (machine_stiffness == 0.0 || size == 0.0) {
+    if (increment.setting != 0.0) findings_.Report("a setting, though no machine loads the structure");
+    return;
+  }
+  const double given = (increment.load_factor - before.load_factor) * size / machine_stiffness;
+  const double unit = forces > 0.0 ? stage_.scaling.length : 1.0;
+  findings_.Bound("the setting is not that of the machine, over L",
+                  std::abs(increment.setting - before.setting - work / size - given) / unit,
+                  kExact * (1.0 + (std::abs(increment.setting) + moved + std::abs(given)) / unit) *
+                      std::sqrt(static_cast<double>(loads.size())));
 }
 
 void IntegralChecks::Compare(const Recorded& recorded, const Integrals& anew, const Increment& increment,

@@ -81,6 +81,8 @@ class IntegralChecks {
   // The same over a jump: energies by what was released, and the work of the loads, which the machine prescribes. The
   // machine: of TraceOptions. before: null if the increment before has no state.
   void CheckJump(const Increment& last, const Increment* before, const Increment& landing, double machine_stiffness);
+  // The setting of the machine of TraceOptions, which both increments have on record with their states.
+  void CheckSetting(const Increment& before, const Increment& increment, double machine_stiffness);
   // Over F L, of the increments from the start of the stage on.
   void CheckEnergy(const Increment& start, const Increment& increment);
 

@@ -50,6 +50,7 @@ class EventVerifier {
                          ToString(request_.options.method));
       CheckNumber(now);
       CheckBranches(now);
+      CheckOrder(now);
       CheckTaken(now);
       CheckSigns(now);
     }
@@ -63,6 +64,11 @@ class EventVerifier {
     direction_ = request_.options.Direction();
     if (!request_.program.empty()) direction_ = request_.program[stage].Target() < 0.0 ? -1.0 : 1.0;
     relation_ = 0;
+    const Scene scene = StageScene(request_, index_, stage);
+    const bool moves = !scene.support_motions.empty() || !scene.obstacle_motions.empty();
+    forward_ = request_.options.DrivesForward(moves || !request_.program.empty());
+    machine_ = request_.options.machine_stiffness > 0.0 &&
+               std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) { return !load.constant; });
   }
 
   // The choice of the request for this increment; null: none.
@@ -89,6 +95,36 @@ class EventVerifier {
     if (choice == nullptr || choice->event != 0) findings_.Report("an event without a number that no choice asks for");
   }
 
+  // 1: the path parameter goes on, 0: it rests, -1: it goes back.
+  int SenseOf(double parameter_rate, double load_rate) const {
+    const auto sign = [](double rate) { return rate > kRate ? 1 : rate < -kRate ? -1 : 0; };
+    const int sense = sign(parameter_rate);
+    return sense == 0 && std::isinf(request_.options.machine_stiffness) ? sign(direction_ * load_rate) : sense;
+  }
+
+  // Branches in the order of the rule. A bifurcation lists the path itself before those that cross.
+  void CheckOrder(const Increment& now) {
+    const std::vector<BranchRecord>& branches = now.event.branches;
+    if (branches.empty() || now.kind == IncrementKind::kBifurcation || branches[0].turn == 0.0) return;
+    bool by_sense = true, by_dissipation = true;
+    for (std::size_t k = 1; k < branches.size(); ++k) {
+      const BranchRecord &before = branches[k - 1], &branch = branches[k];
+      const int sense_before = SenseOf(before.parameter_rate, before.load_rate),
+                sense = SenseOf(branch.parameter_rate, branch.load_rate);
+      const bool less = branch.dissipation_rate <= before.dissipation_rate + kRate;
+      by_sense = by_sense && (sense < sense_before || (sense == sense_before && less));
+      by_dissipation = by_dissipation && less;
+    }
+    // A path that went back since the last increment arrives going back.
+    const bool from_start = at_ == 0 || SetsOut(now) || increments_[at_ - 1].stage != now.stage;
+    const double change = from_start ? 0.0
+                          : machine_ ? now.setting - increments_[at_ - 1].setting
+                                     : now.load_factor - increments_[at_ - 1].load_factor;
+    const bool back = direction_ * change < 0.0;
+    if (!(forward_ && !back ? by_sense : by_dissipation) && !(back && by_sense && forward_))
+      findings_.Report("the branches are not in the order of branch_rule");
+  }
+
   // What holds for any branches from here.
   void CheckBranches(const Increment& now) {
     const std::vector<BranchRecord>& branches = now.event.branches;
@@ -98,13 +134,11 @@ class EventVerifier {
       if (!(std::abs(branch.load_rate) <= 1.0 + kRate)) wrong("a load rate beyond 1");
       if (!(branch.dissipation_rate >= 0.0)) wrong("a negative dissipation rate");
       if (!(branch.turn >= 0.0 && branch.turn <= kPi + kRate)) wrong("an angle beyond pi");
-      if (now.kind == IncrementKind::kStart &&
-          !(std::abs(std::cos(branch.turn) - direction_ * branch.load_rate) <= kRate))
-        wrong("the angle to the load is not the one of its load rate");
-      // A bifurcation lists the path itself before the one that crosses.
-      const bool first = k == 0 || (k == 1 && branches[0].turn == 0.0);
-      if (!first && branch.dissipation_rate > branches[k - 1].dissipation_rate + kRate)
-        wrong("dissipates more than the one before");
+      if (!(std::abs(branch.parameter_rate) <= 1.0 + kRate)) wrong("a rate of the path parameter beyond 1");
+      if (!machine_ && !(std::abs(direction_ * branch.load_rate - branch.parameter_rate) <= kRate))
+        wrong("the rate of the path parameter is not that of the load");
+      if (SetsOut(now) && !(std::abs(std::cos(branch.turn) - branch.parameter_rate) <= kRate))
+        wrong("the angle to the path parameter is not the one of its rate");
       if (now.contacts.empty()) continue;
       if (branch.states.size() != now.contacts.size()) {
         wrong("the number of states is not that of the contacts");
@@ -220,6 +254,8 @@ class EventVerifier {
   Scaling scaling_;         // of the stage
   double level_ = 0.0;      // of the stage: change of the load factor
   double direction_ = 1.0;  // of the load at the start of the stage
+  bool forward_ = false;    // BranchRule::kForward holds in the stage
+  bool machine_ = false;    // loads the stage
   int events_ = 0;          // numbered so far
   int relation_ = 0;        // of the signs on this arc; 0: not known
   std::size_t at_ = 0;      // being checked

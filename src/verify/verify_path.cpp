@@ -98,6 +98,7 @@ class StageVerifier {
       if (!increment.positions.empty()) {
         points_.Check(jumps ? nullptr : before, increment);
         stability_.Check(increment);
+        if (before != nullptr) integrals_.CheckSetting(*before, increment, options_.machine_stiffness);
         if (before != nullptr && !jumps) {
           const bool next = before == &increments_[increment_ - 1];
           CheckStates(*before, increment, next);

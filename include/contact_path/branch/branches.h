@@ -83,13 +83,13 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 // and each contact with an inequality that is zero to `tolerance`. Of branches with equal directions one is kept: the
 // branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or, with
 // Arrival::forward, on none the path parameter goes on, reactions may have to change while nothing moves, as where a
-// block that is carried along meets a stop. Then branches are added for all other reactions that the point can have (reaction_redistribution.h). The complementarity problem of
-// the rates (rate_complementarity.h) tells the branches where its solutions are the only ones, and where there are more
-// than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise, and where the solution for a sense
-// of the load neither leads on nor is the branch of arrival. Where there are more of them, and that problem does not
-// exist or leaves a sense open, principal pivoting on the rates (rate_problem.h) selects combinations from several
-// first guesses; if there is no branch then, up to 4^8 are all tried. All are tried alike. cancelled: asked often; may
-// be empty.
+// block that is carried along meets a stop. Then branches are added for all other reactions that the point can have
+// (reaction_redistribution.h). The complementarity problem of the rates (rate_complementarity.h) tells the branches
+// where its solutions are the only ones, and where there are more than 4^6 combinations of states; up to 4^6
+// combinations are all tried otherwise, and where the solution for a sense of the load neither leads on nor is the
+// branch of arrival. Where there are more of them, and that problem does not exist or leaves a sense open, principal
+// pivoting on the rates (rate_problem.h) selects combinations from several first guesses; if there is no branch then,
+// up to 4^8 are all tried. All are tried alike. cancelled: asked often; may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance,
                        const std::function<bool()>& cancelled = nullptr);

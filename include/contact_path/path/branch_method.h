@@ -135,11 +135,11 @@ class BranchMethod : public PathMethod {
   StepEnds ends_;
   CurvePoint current_;
   double step_length_;
-  int increments_;                // given so far, increment 0 not counted
-  int events_;                    // passed so far, starts not counted
-  int events_in_place_ = 0;       // passed without moving
-  bool at_start_ = true;          // not moved yet
-  std::optional<double> stored_;  // strain energy at current_, where it is known [force length]
+  int increments_;                       // given so far, increment 0 not counted
+  int events_;                           // passed so far, starts not counted
+  int events_in_place_ = 0;              // passed without moving
+  bool at_start_ = true;                 // not moved yet
+  std::optional<double> stored_;         // strain energy at current_, where it is known [force length]
   std::optional<Eigen::VectorXd> push_;  // of the jump that comes next
   bool turned_ = false;                  // why: the path parameter turns, or no branch leads on
   bool came_back_ = false;               // a jump from the increment before did

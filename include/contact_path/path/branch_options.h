@@ -26,12 +26,12 @@ struct BranchOptions {
   double direction = 1.0;         // sign in which the path parameter is wanted to go
   std::vector<BranchChoice> choices;
   TrialObserver on_trial = {};
-  bool inner = false;              // increments are to have a state at the middle of their steps
-  bool stability = false;          // increments are to have verdicts of stability
+  bool inner = false;      // increments are to have a state at the middle of their steps
+  bool stability = false;  // increments are to have verdicts of stability
   AtLimit at_limit = AtLimit::kFollow;
-  double machine_stiffness = 0.0;  // of TraceOptions
-  bool landing_checks = false;     // of TraceOptions
-  bool forward = false;            // BranchRule::kForward
+  double machine_stiffness = 0.0;          // of TraceOptions
+  bool landing_checks = false;             // of TraceOptions
+  bool forward = false;                    // BranchRule::kForward
   std::optional<double> load_factor = {};  // at which the path is to end
   // Quantities of the system whose values get increments of their own; empty: none.
   std::function<ArcTargets(const FixedStateSystem& system)> watch = {};

@@ -23,8 +23,8 @@ namespace contact_path {
 
 struct DepartureOptions {
   PathParameter parameter;
-  bool forward = false;        // BranchRule::kForward
-  bool ends_at_limit = false;  // a branch on which the parameter goes back is not followed
+  bool forward = false;                              // BranchRule::kForward
+  bool ends_at_limit = false;                        // a branch on which the parameter goes back is not followed
   LargestReactionSoFar* largest_reaction = nullptr;  // of the trace that the path is a part of; null: of this path
 };
 

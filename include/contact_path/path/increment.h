@@ -140,8 +140,8 @@ struct BranchRecord {
 template <typename P>
 constexpr auto Fields(Of<BranchRecord>) {
   return std::tuple(Member("states", &P::states), Member("load_rate", &P::load_rate),
-                    Member("parameter_rate", &P::parameter_rate),
-                    Member("dissipation_rate", &P::dissipation_rate), Member("turn", &P::turn));
+                    Member("parameter_rate", &P::parameter_rate), Member("dissipation_rate", &P::dissipation_rate),
+                    Member("turn", &P::turn));
 }
 
 // What was found at an increment where branches part; empty elsewhere.

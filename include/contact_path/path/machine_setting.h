@@ -14,8 +14,8 @@ namespace contact_path {
 // X = f . (u - u_0) / |f| + s |f| / K, the setting of the machine of TraceOptions in a stage that begins at u_0.
 class MachineSetting {
  public:
-  // stiffness: K of TraceOptions. Where it is 0, or the load factor scales no loads, there is no machine: the load factor
-  // is what goes on, and the setting stays 0.
+  // stiffness: K of TraceOptions. Where it is 0, or the load factor scales no loads, there is no machine: the load
+  // factor is what goes on, and the setting stays 0.
   MachineSetting(const Model& model, double stiffness);
 
   const Machine& machine() const { return machine_; }  // scaled

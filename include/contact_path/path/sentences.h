@@ -28,7 +28,8 @@ inline constexpr Sentence kNoLanding =
 inline constexpr Sentence kNoJump =
     "the machine can go no further, and the jump from increment <value> comes back to where it began";
 inline constexpr Sentence kMayGoOn =
-    "no branch was found with which the load goes on, and there are too many combinations of contact states to try them "
+    "no branch was found with which the load goes on, and there are too many combinations of contact states to try "
+    "them "
     "all: see branch_rule";
 
 // Where branches part, and where none leads on.

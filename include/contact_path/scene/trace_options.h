@@ -164,8 +164,8 @@ struct TraceOptions {
   DefaultTrue stability = DefaultTrue::kTrue;  // the verdict of stability of each increment is looked for
   AtLimit at_limit = AtLimit::kFollow;
   // K of the machine that loads the structure: with loads f it keeps s |f| = K (X - x), X growing, x = f . (u - u_0) /
-  // |f|, u_0 where the stage begins. |f|: the norm of the forces, or of the moments where there are no forces. >= 0; 0 =
-  // dead loads, infinite = x is prescribed [force / length, or moment / rad].
+  // |f|, u_0 where the stage begins. |f|: the norm of the forces, or of the moments where there are no forces. >= 0; 0
+  // = dead loads, infinite = x is prescribed [force / length, or moment / rad].
   double machine_stiffness = 0.0;
   bool landing_checks = false;  // whether other motions land where a jump lands is looked for
 
@@ -179,8 +179,7 @@ struct TraceOptions {
   bool Records(std::string_view list) const { return std::find(record.begin(), record.end(), list) != record.end(); }
   // Whether BranchRule::kForward holds. driven: in a stage with a target, or where supports or obstacles move.
   bool DrivesForward(bool driven) const {
-    return branch_rule == BranchRule::kForward ||
-           (branch_rule == BranchRule::kAutomatic && driven && LocatesEvents());
+    return branch_rule == BranchRule::kForward || (branch_rule == BranchRule::kAutomatic && driven && LocatesEvents());
   }
   // Whether corners are located, each at the end of an increment, and on record as events.
   bool LocatesEvents() const { return method == Method::kBranch; }
@@ -193,8 +192,9 @@ constexpr auto Fields(Of<TraceOptions>) {
                     Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
                     Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
                     Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
-                    Member("branch_rule", &P::branch_rule), Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
-                    Member("stability", &P::stability), Member("at_limit", &P::at_limit),
+                    Member("branch_rule", &P::branch_rule), Member("branch_choices", &P::branch_choices),
+                    Member("friction_law", &P::friction_law), Member("stability", &P::stability),
+                    Member("at_limit", &P::at_limit),
                     Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite),
                     Member("landing_checks", &P::landing_checks));
 }
