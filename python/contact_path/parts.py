@@ -182,7 +182,8 @@ class Parts(Loading):
                 step: float | None = None, max_increments: int | None = None, full_state_every: int | None = None,
                 stop: Maps | None = None, branch_choices: Maps | None = None, friction_law: str | None = None,
                 at: Maps | None = None, record: Texts | None = None, stability: str | None = None, at_limit: str | None = None,
-                machine_stiffness: float | None = None, landing_checks: bool | None = None) -> None:
+                machine_stiffness: float | None = None, landing_checks: bool | None = None,
+                branch_rule: str | None = None) -> None:
         """Sets options of the trace; None: as it was. stop, at and branch_choices replace the whole list."""
         given = {key: plain(value) for key, value in locals().items() if key != 'self' and value is not None}
         self.request.setdefault('options', {}).update(given)

@@ -35,7 +35,7 @@ LABELS = {'x': ('position x of', '[length]'), 'y': ('position y of', '[length]')
 UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
          'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
          'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]', 'unstable_directions': '[-]',
-         'critical_stiffness': '[force/length]', 'energy_released': '[force length]'}
+         'critical_stiffness': '[force/length]', 'setting': '[length]', 'energy_released': '[force length]'}
 RESPONSE = (*SECTIONS, *STRESSES, *PRESSURES, 'width')  # fields that are computed where they are not recorded
 PLACES = ('x', 'y', 'turn')  # of obstacles
 LISTED = 12  # names in a message

@@ -239,7 +239,9 @@ std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice*
   arrival.singular = at.event.crossing.has_value() || at.event.singular;
   if (at_start_) arrival = departure_.StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.fails;
-  return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
+  std::optional<End> end = departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
+  if (turned_back_ == 0 && departure_.turned_back()) turned_back_ = increments_;
+  return end;
 }
 
 bool BranchMethod::FailsByRounding(const ArcStep& at) const {
@@ -377,15 +379,17 @@ Advance BranchMethod::Next(const PathPoint& from) {
   }
   SetNextLength(*at);
   NoteLimit(*at, increment, facts.stable_ahead, &advance);
-  increment.solve.next_step = step_length_;
+  increment.solve.next_step = push_ ? 0.0 : step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));
   return advance;
 }
 
 Causes BranchMethod::Remarks() const {
-  if (!departure_.other_reactions()) return {};
-  return {{sentences::kOtherReactions}};
+  Causes remarks;
+  if (turned_back_ > 0) remarks.push_back({sentences::kNoneGoesOn, {}, turned_back_});
+  if (departure_.other_reactions()) remarks.push_back({sentences::kOtherReactions});
+  return remarks;
 }
 
 End BranchMethod::NoStep(const PathPoint& from) {

@@ -91,6 +91,8 @@ class StageVerifier {
         continue;
       }
       if (increment_ > first_) CheckProgress(increments_[increment_ - 1], increment);
+      if (increment_ > first_ && options_.at_limit == AtLimit::kJump && options_.branch_choices.empty())
+        CheckMachine(increments_[increment_ - 1], increment);
       const bool jumps = increment.kind == IncrementKind::kJump;
       if (jumps) CheckJump(before, increment);
       if (!jumps && (increment.jump.energy_released != 0.0 || increment.jump.landing_robust))
@@ -191,6 +193,27 @@ class StageVerifier {
     if (event.taken < 0 || event.taken > static_cast<int>(event.branches.size()))
       findings_.Report("the branch taken from the increment before, ", event.taken, ", is none of its ",
                        event.branches.size());
+  }
+
+  // What the machine does: the path parameter never goes back, and what is not stable under the machine is left by a
+  // jump, or at a bifurcation.
+  void CheckMachine(const Increment& before, const Increment& increment) {
+    const double stiffness = options_.machine_stiffness;
+    const bool loaded = std::any_of(stage_.scene.loads.begin(), stage_.scene.loads.end(),
+                                    [](const Load& load) { return !load.constant; });
+    const bool machine = stiffness > 0.0 && loaded;
+    const double sense = (target_ ? *target_ : options_.Direction()) < 0.0 ? -1.0 : 1.0;
+    const double change =
+        sense * (machine ? increment.setting - before.setting : increment.load_factor - before.load_factor);
+    const double unit = machine ? stage_.scaling.length : stage_.scaling.load_factor;
+    findings_.Bound("the path parameter goes back", -change / unit,
+                    kSingular * (1.0 + std::abs(machine ? increment.setting : increment.load_factor) / unit));
+    if (increment.kind == IncrementKind::kJump || before.kind == IncrementKind::kBifurcation) return;
+    const StabilityRecord& at = before.stability;
+    const bool unstable = !machine                ? at.stability == Verdict::kUnstable
+                          : std::isinf(stiffness) ? at.stability_controlled == Verdict::kUnstable
+                                                  : at.critical_stiffness > stiffness * (1.0 + kSingular);
+    if (unstable) findings_.Report("is reached along a path from a point that is unstable under the machine");
   }
 
   // What method branch records where branches part. From the last increment of a stage no branch is taken.

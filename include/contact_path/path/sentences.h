@@ -145,10 +145,12 @@ inline constexpr Sentence kOtherReactions =
     "where several contacts hold a node its reactions are not unique: the least ones were taken";
 inline constexpr Sentence kTurnsBack =
     "at increment <value> the load turns back, since that dissipates most, where another branch goes on with it: see "
-    "branch_choices";
+    "branch_rule";
 inline constexpr Sentence kTurnsBackOften =
     "at increment <value> the load turns back, since that dissipates most, where another branch goes on with it (the "
-    "first of <other> such increments): see branch_choices";
+    "first of <other> such increments): see branch_rule";
+inline constexpr Sentence kNoneGoesOn =
+    "at increment <value> no branch goes on, and the path was followed back: see at_limit";
 inline constexpr Sentence kInObstacles = "nodes that are no candidates have gone into obstacles: <name>";
 inline constexpr Sentence kShortPath =
     "the whole path is hardly longer than what increments may cut off: to be trusted only with a smaller step";

@@ -66,6 +66,8 @@ def columns_of(traced: Mapping[str, Any], increments: Sequence[Any], options: Ma
         if name == 'boundaries':
             if has_verdicts:
                 table.update((field, column(field, kind)) for field, kind in STABILITY.items())
+            if options.get('machine_stiffness', 0.0) > 0.0:
+                table['setting'] = column('setting')
             if options.get('at_limit') == 'jump':
                 table['energy_released'] = column('energy_released')
                 if options.get('landing_checks'):
@@ -78,5 +80,6 @@ def branches_of(contacts: Sequence[str], event: Any) -> Dict[str, Any]:
     return {'number': event.number, 'taken': event.taken, 'complete': event.complete,
             'complete_by': getattr(event, 'complete_by', ''), 'branches': [
         {'states': {contact: STATES[state] for contact, state in zip(contacts, branch.states)},
-         'load_rate': branch.load_rate, 'dissipation_rate': branch.dissipation_rate, 'turn': branch.turn}
+         'load_rate': branch.load_rate, 'parameter_rate': branch.parameter_rate, 'dissipation_rate': branch.dissipation_rate,
+         'turn': branch.turn}
         for branch in event.branches]}

@@ -18,7 +18,7 @@ def trace(scene: Scene | str | os.PathLike[str], *, via: str = 'program', progre
           max_increments: int | None = None, full_state_every: int | None = None, stop: Maps | None = None,
           at: Maps | None = None, record: Texts | None = None, branch_choices: Maps | None = None,
           friction_law: str | None = None, stability: str | None = None, at_limit: str | None = None,
-          machine_stiffness: float | None = None, landing_checks: bool | None = None) -> Path:
+          machine_stiffness: float | None = None, landing_checks: bool | None = None, branch_rule: str | None = None) -> Path:
     """The path of a scene or of a scene file. It may end early: Path.end_reason and Path.message tell why.
 
     via: 'program' runs contact_path_trace; 'ros' sends the scene to a node, which records its bag. progress: called for each

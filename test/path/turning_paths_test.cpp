@@ -1,0 +1,241 @@
+// Paths that are driven: where they turn, jump and go on, the path parameter never goes back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/end.h"
+#include "contact_path/scene/change_units.h"
+#include "support/solid_grid.h"
+#include "support/traced_path.h"
+
+namespace contact_path::turning_paths_test {
+namespace {
+
+constexpr double kRigid = std::numeric_limits<double>::infinity();
+
+double Parameter(const TracedPath& path, const Increment& increment) {
+  const bool machine = path.request.options.machine_stiffness > 0.0;
+  return machine ? increment.setting : increment.load_factor;
+}
+
+void ExpectNeverBack(const TracedPath& path) {
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    const Increment &before = path.increments[i - 1], &now = path.increments[i];
+    if (before.stage == now.stage)
+      EXPECT_GE(Parameter(path, now), Parameter(path, before) - 1e-9) << "increment " << now.index;
+  }
+}
+
+// A square of width 1 on 4 x 4 quadratic elements, held below, pressed by a plate that comes down by 0.2.
+TraceRequest PressedSquare(int elements, double friction) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.materials = {ElasticMaterial("m", 1.0, 0.3)};
+  Solid block;
+  block.material = "m";
+  block.nodes_per_element = 8;
+  AddGrid(
+      &scene, elements, elements, [](double x, double y) { return Eigen::Vector2d(x, y); }, block);
+  scene.obstacles = {{"plate", ObstacleShape::kHalfPlane, 0.0, 1.0, 0.0, -1.0, friction}};
+  scene.obstacle_motions = {{"plate", 0.0, -1.0}};
+  for (Node& node : scene.nodes) {
+    node.fixed_x = node.fixed_y = node.y == 0.0;
+    if (node.y == 1.0) scene.contacts.push_back({node.name, "plate"});
+  }
+  request.options.stop = {{"load_factor", ">", 0.2}};
+  return request;
+}
+
+// By the largest dissipation alone the plate lifts off again where a node begins to slip.
+TEST(TurningPaths, APlateThatPressesGoesOn) {
+  for (const double friction : {0.1, 0.2, 0.3}) {
+    const TracedPath path = TraceProved(PressedSquare(4, friction));
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << friction;
+    ExpectNeverBack(path);
+  }
+  EXPECT_NEAR(SumOfNormals(TraceIncrements(PressedSquare(4, 0.1)).increments.back()), 0.27896, 1e-5);
+  EXPECT_NEAR(SumOfNormals(TraceIncrements(PressedSquare(4, 0.2)).increments.back()), 0.28146, 1e-5);
+  EXPECT_NEAR(SumOfNormals(TraceIncrements(PressedSquare(4, 0.3)).increments.back()), 0.28199, 1e-5);
+}
+
+TEST(TurningPaths, TheRuleIsAChoice) {
+  TraceRequest request = PressedSquare(4, 0.2);
+  request.options.max_increments = 200;
+  request.options.branch_rule = BranchRule::kDissipation;
+  const TracedPath back = TraceIncrements(request);
+  EXPECT_LT(back.increments.back().load_factor, 0.0);
+  EXPECT_NE(back.result.message.find("see branch_rule"), std::string::npos) << back.result.message;
+  const auto turns = std::find_if(back.increments.begin(), back.increments.end(), [](const Increment& increment) {
+    return increment.kind == IncrementKind::kCornerLimit;
+  });
+  ASSERT_NE(turns, back.increments.end());
+  EXPECT_LT(turns->event.branches[0].parameter_rate, 0.0);
+  EXPECT_GT(turns->event.branches[1].parameter_rate, 0.0);
+  request.options.branch_rule = BranchRule::kForward;
+  EXPECT_GT(TraceIncrements(request).increments.back().load_factor, 0.2 - 1e-12);
+}
+
+// A toggle of two Biot bars (half span 1, apex `rise` up) is pushed down by a plate onto a table at -`below`.
+TraceRequest PushedToggle(double rise, double below, double size = 1.0, double EA = 1.0) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"left", -size, 0.0, true, true}, {"apex", 0.0, rise * size}, {"right", size, 0.0, true, true}};
+  for (const char* foot : {"left", "right"}) {
+    Bar bar;
+    bar.nodes = {foot, "apex"};
+    bar.EA = EA;
+    scene.bars.push_back(bar);
+  }
+  scene.obstacles = {{"plate", ObstacleShape::kHalfPlane, 0.0, (rise + 0.05) * size, 0.0, -1.0, 0.0},
+                     {"table", ObstacleShape::kHalfPlane, 0.0, -below * size, 0.0, 1.0, 0.0}};
+  scene.contacts = {{"apex", "plate"}, {"apex", "table"}};
+  Stage push;
+  push.obstacle_motions = {{"plate", 0.0, -1.0}};
+  push.target = (rise + 0.05 + below) * size * 0.9;
+  request.program = {push};
+  request.options.at_limit = AtLimit::kJump;
+  return request;
+}
+
+TEST(TurningPaths, AToggleThatAPlatePushesOverLands) {
+  for (const double rise : {0.05, 0.2, 0.5})
+    for (const double size : {1e-3, 1.0, 1e3})
+      for (const double EA : {1e-3, 1.0, 1e6}) {
+        const double below = 0.75 * rise;
+        const TracedPath path = TraceProved(PushedToggle(rise, below, size, EA));
+        EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+        const std::vector<Increment> jumps = IncrementsOfKind(path, IncrementKind::kJump);
+        ASSERT_EQ(jumps.size(), 1U);
+        EXPECT_NEAR(jumps[0].load_factor, (rise + 0.05) * size, 1e-9 * size);
+        const double pressed = 2.0 * EA * (1.0 / std::hypot(1.0, below) - 1.0 / std::hypot(1.0, rise)) * below;
+        EXPECT_NEAR(Contact(path, jumps[0], "apex@table").rn, pressed, 1e-9 * EA);
+        EXPECT_EQ(jumps[0].stability.stability, Verdict::kStable);
+        ExpectNeverBack(path);
+      }
+}
+
+// A weight of 1 is pulled up a ramp of 45 degrees and over its crest onto a level table by a machine.
+TraceRequest OverTheCrest(double friction, double stiffness) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"block", -1.5, -1.0}};
+  Superelement spring;
+  spring.nodes = {"block"};
+  spring.stiffness = {0.0, 0.0, 0.0, 0.1};
+  spring.rest_positions = {-1.5, -1.0};
+  scene.superelements = {spring};
+  scene.loads = {{"block", 0.0, -1.0, true}};
+  Obstacle ground;
+  ground.name = "ground";
+  ground.shape = ObstacleShape::kPolyline;
+  ground.points = {-3.0, -1.0, -1.05, -1.0, 0.0, 0.0, 9.0, 0.0};
+  ground.fillet = 0.05;
+  ground.friction = friction;
+  scene.obstacles = {ground, {"wall", ObstacleShape::kHalfPlane, 6.0, 0.0, -1.0, 0.0, 0.0}};
+  scene.contacts = {{"block", "ground"}, {"block", "wall"}};
+  Stage pull;
+  pull.loads = {{"block", 1.0, 0.0}};
+  pull.target = 2.0;
+  request.program = {pull};
+  request.options.at_limit = AtLimit::kJump;
+  request.options.machine_stiffness = stiffness;
+  return request;
+}
+
+TEST(TurningPaths, AWeightThatLandsSlidingIsPulledOn) {
+  for (const double friction : {0.1, 0.2, 0.4})
+    for (const double stiffness : {0.5, 1.0, 5.0}) {
+      const TracedPath path = TraceProved(OverTheCrest(friction, stiffness));
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      const std::vector<Increment> jumps = IncrementsOfKind(path, IncrementKind::kJump);
+      ASSERT_EQ(jumps.size(), 1U) << friction << " " << stiffness;
+      const auto slides = std::find_if(path.increments.begin(), path.increments.end(), [&](const Increment& now) {
+        return now.index > jumps[0].index && std::abs(PositionX(path, now, "block") - 5.0) < 0.5;
+      });
+      ASSERT_NE(slides, path.increments.end());
+      // The spring of stiffness 0.1 presses it from 1 above its rest.
+      EXPECT_NEAR(slides->load_factor, friction * 1.1, 1e-9) << friction << " " << stiffness;
+      ExpectNeverBack(path);
+    }
+}
+
+// A pinned column of 8 segments under a dead load, its axis along y.
+TraceRequest EulersColumn(double slenderness, double target) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"foot", 0.0, 0.0, true, true}, {"head", 0.0, 1.0, true, false}};
+  Beam column;
+  column.name = "c";
+  column.nodes = {"foot", "head"};
+  column.EI = 1.0;
+  column.EA = slenderness;
+  column.segments = 40;
+  scene.beams = {column};
+  Stage press;
+  press.loads = {{"head", 0.0, -1.0}};
+  press.target = target;
+  request.program = {press};
+  request.options.at_limit = AtLimit::kJump;
+  return request;
+}
+
+// The machine goes on along the curve that crosses: no jump is needed. 0.35 at 15 by the elastica.
+TEST(TurningPaths, AColumnGoesOnAlongItsBuckledCurve) {
+  const double pi = std::acos(-1.0);
+  for (const double slenderness : {1e3, 1e4, 1e5, 1e6, 1e7}) {
+    const TracedPath path = TraceIncrements(EulersColumn(slenderness, 15.0));
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const std::vector<Increment> crossed = IncrementsOfKind(path, IncrementKind::kBifurcation);
+    ASSERT_EQ(crossed.size(), 1U) << slenderness;
+    EXPECT_NEAR(crossed[0].load_factor / (pi * pi), 1.0, 2e-3 + 20.0 / slenderness);
+    EXPECT_GT(crossed[0].event.taken, 1);
+    EXPECT_NEAR(PositionY(path, path.increments.back(), "head"), 0.35, 0.01 + 20.0 / slenderness) << slenderness;
+    EXPECT_EQ(path.increments.back().stability.stability, Verdict::kStable);
+    ExpectNeverBack(path);
+  }
+}
+
+// The points of a path that follows are the same under each machine, whose setting goes on and back.
+TEST(TurningPaths, MachinesFollowTheSamePath) {
+  TraceRequest request = ReadExample("bistable_arch");
+  request.options.at_limit = AtLimit::kFollow;
+  request.options.machine_stiffness = 0.0;
+  const TracedPath dead = TraceIncrements(request);
+  for (const double stiffness : {1.0, 1e6, kRigid}) {
+    request.options.machine_stiffness = stiffness;
+    const TracedPath path = TraceProved(request);
+    ExpectSameEvents(path, dead, 1e-9);
+  }
+}
+
+// s |f| = K (X - x), in any units.
+TEST(TurningPaths, TheSettingIsALength) {
+  TraceRequest request = ReadExample("bistable_arch");
+  request.options.at_limit = AtLimit::kFollow;
+  request.options.machine_stiffness = 20.0;
+  const TracedPath path = TraceProved(request);
+  const double start = PositionY(path, path.increments.front(), "crown");
+  for (const Increment& increment : path.increments)
+    if (increment.stage <= 1)
+      EXPECT_NEAR(increment.setting, start - PositionY(path, increment, "crown") + increment.load_factor / 20.0, 1e-12);
+  // Two loads of which the sum of squares is 25.
+  for (Load& load : request.program[0].loads) load.fy *= 5.0;
+  request.program[0].target /= 5.0;
+  const TracedPath scaled = TraceProved(request);
+  EXPECT_NEAR(scaled.increments[10].setting, path.increments[10].setting, 1e-9);
+}
+
+TEST(TurningPaths, AMachineAndMotionsInOneStageAreRefused) {
+  TraceRequest request = PushedToggle(0.2, 0.15);
+  request.options.machine_stiffness = 1.0;
+  EXPECT_EQ(TraceIncrements(request).result.reason, EndReason::kStopCriterion);  // no load, no machine
+  request.program[0].loads = {{"apex", 0.0, -1e-6}};
+  EXPECT_THROW(TraceIncrements(request), InvalidRequest);
+}
+
+}  // namespace
+}  // namespace contact_path::turning_paths_test
