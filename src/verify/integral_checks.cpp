@@ -128,37 +128,25 @@ void IntegralChecks::CheckJump(const Increment& last, const Increment* before, c
 }
 
 void IntegralChecks::CheckSetting(const Increment& before, const Increment& increment, double machine_stiffness) {
-  // The loads that the load factor scales, of free components: by node fx, fy, moment.
-  std::vector<std::array<double, 3>> loads(stage_.scene.nodes.size());
-  for (const Load& of : stage_.scene.loads) {
-    if (of.constant) continue;
-    const std::size_t i = stage_.index.Node(of.node);
-    const Node& node = stage_.scene.nodes[i];
-    const std::array<double, 3> free = {node.fixed_x ? 0.0 : of.fx, node.fixed_y ? 0.0 : of.fy,
-                                        node.fixed_rotation ? 0.0 : of.moment};
-    for (std::size_t k = 0; k < free.size(); ++k) loads[i][k] += free[k];
+  const double size = stage_.driving.size;
+  if (machine_stiffness == 0.0 || size == 0.0) {
+    if (increment.setting != 0.0) findings_.Report("a setting, though no machine loads the structure");
+    return;
   }
-  double forces = 0.0, moments = 0.0, work = 0.0, moved = 0.0;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const auto& [fx, fy, moment] = loads[i];
-    forces += fx * fx + fy * fy;
-    moments += moment * moment;
+  double work = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < stage_.driving.by_node.size(); ++i) {
+    const auto& [fx, fy, moment] = stage_.driving.by_node[i];
     work += fx * (increment.positions[2 * i] - before.positions[2 * i]) +
             fy * (increment.positions[2 * i + 1] - before.positions[2 * i + 1]);
     if (moment != 0.0) work += moment * (increment.rotations[i] - before.rotations[i]);
     moved = std::max({moved, std::abs(increment.positions[2 * i]), std::abs(increment.positions[2 * i + 1])});
   }
-  const double size = std::sqrt(forces > 0.0 ? forces : moments);
-  if (machine_stiffness == 0.0 || size == 0.0) {
-    if (increment.setting != 0.0) findings_.Report("a setting, though no machine loads the structure");
-    return;
-  }
   const double given = (increment.load_factor - before.load_factor) * size / machine_stiffness;
-  const double unit = forces > 0.0 ? stage_.scaling.length : 1.0;
+  const double unit = stage_.driving.moments_alone ? 1.0 : stage_.scaling.length;
   findings_.Bound("the setting is not that of the machine, over L",
                   std::abs(increment.setting - before.setting - work / size - given) / unit,
                   kExact * (1.0 + (std::abs(increment.setting) + moved + std::abs(given)) / unit) *
-                      std::sqrt(static_cast<double>(loads.size())));
+                      std::sqrt(static_cast<double>(stage_.driving.by_node.size())));
 }
 
 void IntegralChecks::Compare(const Recorded& recorded, const Integrals& anew, const Increment& increment,

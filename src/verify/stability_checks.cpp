@@ -158,8 +158,10 @@ void StabilityChecks::Check(const Increment& increment) {
   // place.
   const double open =
       (off + kExact + kExact / dead.smallest) * dead.largest * by_force.squaredNorm() * critical * critical;
-  if (!(std::abs(recorded.critical_stiffness - critical) <= open))
-    findings_.Report("the critical stiffness is recorded as ", recorded.critical_stiffness, ", but is ", critical);
+  const double unit = std::pow(stage_.driving.size, 2);
+  if (!(std::abs(recorded.critical_stiffness - critical * unit) <= open * unit))
+    findings_.Report("the critical stiffness is recorded as ", recorded.critical_stiffness, ", but is ",
+                     critical * unit);
 }
 
 }  // namespace contact_path

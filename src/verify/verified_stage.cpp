@@ -65,6 +65,24 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
 
 }  // namespace
 
+DrivingLoad::DrivingLoad(const Scene& scene, const SceneIndex& index) : by_node(scene.nodes.size()) {
+  for (const Load& of : scene.loads) {
+    if (of.constant) continue;
+    const std::size_t i = index.Node(of.node);
+    const Node& node = scene.nodes[i];
+    const std::array<double, 3> free = {node.fixed_x ? 0.0 : of.fx, node.fixed_y ? 0.0 : of.fy,
+                                        node.fixed_rotation ? 0.0 : of.moment};
+    for (std::size_t k = 0; k < free.size(); ++k) by_node[i][k] += free[k];
+  }
+  double forces = 0.0, moments = 0.0;
+  for (const auto& [fx, fy, moment] : by_node) {
+    forces += fx * fx + fy * fy;
+    moments += moment * moment;
+  }
+  moments_alone = forces == 0.0;
+  size = std::sqrt(moments_alone ? moments : forces);
+}
+
 VerifiedStage::VerifiedStage(const TraceRequest& request, const SceneIndex& index_given, const Scaling& of_program,
                              std::size_t stage, double largest_load)
     : index(index_given),
@@ -72,6 +90,7 @@ VerifiedStage::VerifiedStage(const TraceRequest& request, const SceneIndex& inde
       configuration(StageConfiguration(request, index, stage)),
       scaling(StageScales(request, index, stage, of_program)),
       check(scene, configuration, scaling),
+      driving(scene, index),
       located(request.options.LocatesEvents()),
       rates(2 * scene.nodes.size()),
       turn_rates(scene.nodes.size()),

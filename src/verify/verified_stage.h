@@ -3,6 +3,7 @@
 #define CONTACT_PATH_SRC_VERIFY_VERIFIED_STAGE_H_
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <sstream>
@@ -46,6 +47,15 @@ struct VerifiedContact {
   double of_parts = 1.0;  // forces of the parts there for a motion of L, over F, at least 1
 };
 
+// Of the loads that the load factor scales, on free components.
+struct DrivingLoad {
+  explicit DrivingLoad(const Scene& scene, const SceneIndex& index);
+
+  std::vector<std::array<double, 3>> by_node;  // fx, fy, moment
+  double size = 0.0;                           // |f|: of the forces, or of the moments where there are no forces
+  bool moments_alone = false;
+};
+
 struct VerifiedStage {
   // index: of the scene of the request; of_program: the scales of the program; largest_load: the largest load factor
   // that the increments of the stage have.
@@ -61,6 +71,7 @@ struct VerifiedStage {
   const Configuration configuration;
   const Scaling scaling;
   const ResidualCheck check;
+  const DrivingLoad driving;
   const bool located;                     // increments end where contacts change their states
   std::vector<double> rates;              // x, y by node: of the fixed components [length], per unit of the load factor
   std::vector<double> turn_rates;         // by node: of the fixed rotations [rad], per unit of the load factor

@@ -112,7 +112,7 @@ const Tampering kTamperings[] = {
        Corner(increments).event.branches.push_back(Taken(increments));
        Corner(increments).event.branches[1].dissipation_rate += 0.01;
      },
-     "dissipates more than the one before"},
+     "not in the order of branch_rule"},
     {"OpenContactClosed", Corners, [](auto& increments) { Corner(increments).contacts[0].gap = 1.0; },
      "closes an open contact"},
     {"DeterminantSign", Corners, [](auto& increments) { increments[5].solve.determinant_sign *= -1; },

@@ -280,11 +280,15 @@ JumpedPath Jumped(bool machine) {
     increment.arc_length += from.arc_length + chord - arc_before;
     increment.external_work += from.external_work + work - work_before;
   }
+  const double stiffness = machine ? -change / down : 0.0;
+  const double top = PositionY(path, all.front(), "apex");
+  for (Increment& increment : jumped.increments)
+    if (machine) increment.setting = top - PositionY(path, increment, "apex") + increment.load_factor / stiffness;
   landing.kind = IncrementKind::kJump;
   landing.jump = {work - (landing.strain_energy - from.strain_energy), true};
   EXPECT_GT(landing.jump.energy_released, 0.0);
   jumped.request.options.at_limit = AtLimit::kJump;
-  if (machine) jumped.request.options.machine_stiffness = -change / down;
+  jumped.request.options.machine_stiffness = stiffness;
   return jumped;
 }
 
@@ -348,8 +352,10 @@ const JumpTampering kJumpTamperings[] = {
      },
      "dissipation falls"},
     {"NotAskedFor", [](auto* path) { path->request.options.at_limit = AtLimit::kFollow; }, "though at_limit is follow"},
-    {"OtherMachine", [](auto* path) { path->request.options.machine_stiffness *= 1.01; }, "setting of the machine"},
-    {"DeadLoads", [](auto* path) { path->request.options.machine_stiffness = 0.0; }, "under dead loads"},
+    {"OtherMachine", [](auto* path) { path->request.options.machine_stiffness *= 1.01; },
+     "the setting is not that of the machine"},
+    {"DeadLoads", [](auto* path) { path->request.options.machine_stiffness = 0.0; },
+     "though no machine loads the structure"},
     {"Landing", [](auto* path) { LandingOf(path).positions[3] += 1e-7; }, "equilibrium residual"},
     {"ArcLength",
      [](auto* path) {
