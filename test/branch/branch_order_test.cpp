@@ -16,7 +16,8 @@ Branch Make(std::vector<ContactState> states, double dissipation, double load, d
   Branch branch;
   branch.states = std::move(states);
   branch.dissipation_rate = dissipation;
-  branch.load_rate = load;
+  branch.load_rate = branch.parameter_rate = load;
+  branch.sense = load > 0.0 ? 1 : -1;
   branch.turn = branch.deviation = turn;
   branch.direction = Eigen::Vector2d(first, load);
   return branch;
@@ -24,7 +25,7 @@ Branch Make(std::vector<ContactState> states, double dissipation, double load, d
 
 // The load rates, which name the branches.
 std::vector<double> Sorted(std::vector<Branch> branches, const std::vector<ContactState>& arrival) {
-  SortBranches(arrival, 1.0, &branches);
+  SortBranches(arrival, false, &branches);
   std::vector<double> names;
   for (const Branch& branch : branches) names.push_back(branch.load_rate);
   return names;
@@ -70,8 +71,20 @@ TEST(BranchOrder, OfEqualTurnTheOneThatLoads) {
   const std::vector<Branch> branches = {Make({kStick}, 0.0, -0.7, 0.1), Make({kOpen}, 0.0, 1.0, 0.1)};
   ExpectOrder(branches, {kStick}, {1.0, -0.7});
   std::vector<Branch> unloading = branches;
-  SortBranches({kOpen}, -1.0, &unloading);
+  for (Branch& branch : unloading) branch.parameter_rate *= -1.0;
+  SortBranches({kOpen}, false, &unloading);
   EXPECT_EQ(unloading.front().load_rate, -0.7);
+}
+
+// A driven path goes on where it can, then rests, whatever dissipates more.
+TEST(BranchOrder, ForwardBeforeDissipation) {
+  std::vector<Branch> branches = {Make({kSlip}, 0.5, -1.0, 0.0), Make({kStick}, 0.3, 0.0, 0.1),
+                                  Make({kStick}, 0.1, 1.0, 0.3), Make({kOpen}, 0.2, 2.0, 2.0)};
+  branches[1].sense = 0;
+  SortBranches({kSlip}, true, &branches);
+  std::vector<double> names;
+  for (const Branch& branch : branches) names.push_back(branch.load_rate);
+  EXPECT_EQ(names, (std::vector<double>{2.0, 1.0, 0.0, -1.0}));
 }
 
 // Load rates that are equal but for rounding.

@@ -464,7 +464,7 @@ TEST(ReadSceneTest, NamesTheKeyOrWordThatWasMeant) {
       {45, "  Step: 1.0",
        "file.yaml:45: options.Step = 1.0: unknown key (did you mean step?), must be one of: method, accuracy, "
        "direction, "
-       "step, max_increments, full_state_every, stop, at, record, branch_choices, frictio..."},
+       "step, max_increments, full_state_every, stop, at, record, branch_rule, branch_cho..."},
       {43, "  accuracy: Fast",
        "file.yaml:43: options.accuracy = Fast: must be fast, balanced or accurate; did you mean fast?"},
       {39, "    obstacle: flor",

@@ -47,6 +47,9 @@ TEST(WriteTraceRequest, EveryFieldThatDiffersFromItsDefault) {
   ExpectRoundTrip(request);
   request.options.stability = DefaultTrue::kFalse;
   request.options.at_limit = AtLimit::kStop;
+  request.options.branch_rule = BranchRule::kForward;
+  request.scene.support_motions.clear();  // a machine goes with loads alone
+  request.scene.obstacle_motions.clear();
   request.options.machine_stiffness = 0.1;
   ExpectRoundTrip(request);
   request.options.machine_stiffness = std::numeric_limits<double>::infinity();
