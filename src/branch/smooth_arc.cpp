@@ -241,13 +241,6 @@ double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint&
   return std::isfinite(error) ? error : unknown;
 }
 
-Eigen::VectorXd SmoothArc::MotionUnder(const Eigen::VectorXd& forces) const {
-  if (!at_hand_) return {};
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(equations_.NumEquations());
-  right.head(forces.size()) = forces;
-  return solver_.Solve(right, 0.0);
-}
-
 double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal) {
   if (!Factorize(x, equations_.TransposedJacobian(x), RowOf(normal)) || !solver_.HasLu())
     return std::numeric_limits<double>::infinity();

@@ -2,8 +2,6 @@
 
 #include <dmumps_c.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -66,12 +64,12 @@ void UnknownsWithConstraints::operator()(const Eigen::SparseMatrix<double>& matr
 
 }  // namespace
 
-// Below kLargeSystem: no call of the BLAS. Pivots are not looked for, as hardly any is small: the matrix is definite on
-// the motions that the constraints admit, up to a few directions. Where |L| |D| |L'| says that one was, eigenvalues
-// tell the count, which takes a second at 10^3 unknowns.
+// No call of the BLAS. Pivots are not looked for, as hardly any is small: the matrix is definite on the motions that
+// the constraints admit, up to a few directions.
 struct SymmetricFactors::Small {
   using Matrix = Eigen::SparseMatrix<double>;
 
+  // False where |L| |D| |L'| says that a pivot was small beside what it divides.
   bool Factorize(const Matrix& matrix, const Eigen::VectorXd& scale, Eigen::Index constraints) {
     const Matrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     // K + kStiffened C' C in place of K: the same solutions, and no pivot of an unknown that comes with its constraint
@@ -86,17 +84,13 @@ struct SymmetricFactors::Small {
                     same(pattern.innerIndexPtr(), stiffened.innerIndexPtr(), stiffened.nonZeros());
     pattern.swap(stiffened);
     factors.setShift(tolerances::kLastDigits);  // so that a pivot which is zero is told by the growth
-    is_dense = false;
-    for (const bool anew : {false, true}) {  // which entries of the constraints are large may have changed
+    for (const bool anew : {false, true}) {     // which entries of the constraints are large may have changed
       if (anew && !analysed) break;
       if (anew || !analysed) factors.analyzePattern(pattern);
       factors.factorize(pattern);
-      if (factors.info() == Eigen::Success && Growth() < kMostGrowth) return Count(factors.vectorD());
+      if (factors.info() == Eigen::Success && Growth() < kMostGrowth) return true;
     }
-    is_dense = true;
-    const Eigen::MatrixXd dense = scaled;
-    lu.compute(dense);
-    return Count(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues());
+    return false;
   }
 
   // The largest entry of |L| |D| |L'|, which is on its diagonal.
@@ -109,16 +103,7 @@ struct SymmetricFactors::Small {
     return growth.size() > 0 ? growth.maxCoeff() : 0.0;
   }
 
-  bool Count(const Eigen::VectorXd& pivots) {
-    negative = (pivots.array() < 0.0).count();
-    return (pivots.array().abs() > tolerances::kSingularPivot).all();
-  }
-
   void Solve(Eigen::MatrixXd* right) const {
-    if (is_dense) {
-      *right = lu.solve(*right);
-      return;
-    }
     if (columns.cols() > 0) *right += kStiffened * columns * right->bottomRows(columns.cols());
     *right = factors.solve(*right);
   }
@@ -126,9 +111,6 @@ struct SymmetricFactors::Small {
   Matrix pattern;  // with the values of the last time
   Matrix columns;  // of the constraints
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower, UnknownsWithConstraints> factors;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-  bool is_dense = false;
-  Eigen::Index negative = 0;
 };
 
 // By MUMPS, with the pivots of Bunch and Kaufman.
@@ -212,17 +194,15 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
     scale_[column] = 1.0 / (is_constraint ? largest : std::sqrt(largest));
   }
   if (!scale_.allFinite() || !(scale_.array() > 0.0).all()) return false;
-  is_large_ = matrix.rows() >= kLargeSystem;
-  if (is_large_) {
-    if (!large_) large_ = std::make_unique<Large>();
-    return large_->Factorize(matrix, scale_);
-  }
   if (!small_) small_ = std::make_unique<Small>();
-  return small_->Factorize(matrix, scale_, constraints);
+  is_large_ = matrix.rows() >= kLargeSystem || !small_->Factorize(matrix, scale_, constraints);
+  if (!is_large_) return (small_->factors.vectorD().array().abs() > tolerances::kSingularPivot).all();
+  if (!large_) large_ = std::make_unique<Large>();
+  return large_->Factorize(matrix, scale_);
 }
 
 Eigen::Index SymmetricFactors::NegativeEigenvalues() const {
-  return is_large_ ? large_->Information(12) : small_->negative;
+  return is_large_ ? large_->Information(12) : (small_->factors.vectorD().array() < 0.0).count();
 }
 
 void SymmetricFactors::Solve(Eigen::MatrixXd* columns) const {

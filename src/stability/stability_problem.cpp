@@ -238,6 +238,8 @@ Stability StabilityProblem::Under(double compliance) const {
     if (flexible == 0.0) flexible = 1.0;
     if (std::abs(machine) <= tolerances::kRootOfRounding * flexible) machine = tolerances::kRootOfRounding * flexible;
   }
+  // What rounding leaves of a compliance that is not negative: of a stiffness without a falling direction.
+  if (slips_.empty() && negative_ == 0) machine = std::abs(machine);
   const double share = dead ? 0.0 : 1.0 / machine;
   const Eigen::Index n0 = negative_ - (!dead && machine < 0.0 ? 1 : 0);
   const int sign = dead || machine > 0.0 ? sign_ : -sign_;

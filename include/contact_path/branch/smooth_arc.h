@@ -58,10 +58,6 @@ class SmoothArc {
   // How far rounding of the equations may move a point x of the curve on the plane with this normal in (u, s).
   double MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal);
 
-  // J x = (forces, 0), one solution of many that differ along the tangent, by the factors of the last Derivatives(): of
-  // its point where nothing else was solved since. Empty: they are singular. forces: NumMotion() - 1.
-  Eigen::VectorXd MotionUnder(const Eigen::VectorXd& forces) const;
-
   // Where k other curves cross, or nearly cross, the arc near guess, whose tangent in (u, s) is about `tangent`.
   std::optional<Crossing> FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent, Eigen::Index k);
 

@@ -9,8 +9,8 @@
 namespace contact_path {
 
 // Of [K C'; C 0], K unknowns x unknowns, C constraints x unknowns. By Sylvester's law of inertia D has as many negative
-// eigenvalues as the matrix. Below kLargeSystem without the BLAS, so that counts do not depend on the processor; beyond
-// by MUMPS.
+// eigenvalues as the matrix. Below kLargeSystem without the BLAS, so that counts do not depend on the processor; beyond,
+// and where a small pivot takes digits, by MUMPS.
 class SymmetricFactors {
  public:
   SymmetricFactors();
