@@ -16,9 +16,10 @@ namespace contact_path {
 namespace {
 
 // Of scaled matrices, whose entries are 1 at most.
-constexpr double kMostGrowth = 1e6;  // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
-constexpr double kStiffened = 4.0;   // more than a negative stiffness
-constexpr double kLarge = 0.5;       // an entry of a constraint
+constexpr double kMostGrowth = 1e6;    // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
+constexpr double kStiffened = 4.0;     // more than a negative stiffness
+constexpr double kLarge = 0.5;         // an entry of a constraint
+constexpr double kCompliance = -1e-9;  // of redundant constraints: entry of their diagonal
 
 // The numbers of MUMPS' manual, which counts from 1.
 enum Communicator : int { kUseCommWorld = -987654 };
@@ -26,8 +27,9 @@ enum Job : int { kInitialise = -1, kTerminate = -2, kAnalyse = 1, kFactorise = 2
 enum Outcome : int { kNotEnoughWorkspace = -9, kSingular = -10, kOutOfMemory = -13 };
 constexpr int kMostRelaxed = 8;  // times that the estimate of the workspace is doubled
 
-// Constraints, at the end with zeros on their diagonal, each right behind the first unknown that is among its largest:
-// the two pivots are one of size two, and what is left is the matrix on the motions that the constraint admits.
+// Constraints, at the end with zeros or kCompliance on their diagonal, each right behind the first unknown that is
+// among its largest: the two pivots are one of size two, and what is left is the matrix on the motions that the
+// constraint admits.
 struct UnknownsWithConstraints {
   using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
@@ -36,7 +38,8 @@ struct UnknownsWithConstraints {
 
 void UnknownsWithConstraints::operator()(const Eigen::SparseMatrix<double>& matrix, Permutation& order) const {
   Eigen::Index unknowns = matrix.rows();
-  while (unknowns > 0 && matrix.coeff(unknowns - 1, unknowns - 1) == 0.0) --unknowns;
+  const auto is_constraint = [](double diagonal) { return diagonal == 0.0 || diagonal == kCompliance; };
+  while (unknowns > 0 && is_constraint(matrix.coeff(unknowns - 1, unknowns - 1))) --unknowns;
   Permutation of_unknowns;
   Eigen::AMDOrdering<int>()(Eigen::SparseMatrix<double>(matrix.topLeftCorner(unknowns, unknowns)), of_unknowns);
   std::vector<bool> placed(static_cast<std::size_t>(matrix.rows()));
@@ -70,11 +73,11 @@ struct SymmetricFactors::Small {
   using Matrix = Eigen::SparseMatrix<double>;
 
   // False where |L| |D| |L'| says that a pivot was small beside what it divides.
-  bool Factorize(const Matrix& matrix, const Eigen::VectorXd& scale, Eigen::Index constraints) {
-    const Matrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  bool Factorize(const Matrix& scaled, Eigen::Index constraints) {
     // K + kStiffened C' C in place of K: the same solutions, and no pivot of an unknown that comes with its constraint
     // is small.
     columns = scaled.rightCols(constraints);
+    columns.prune([&](Eigen::Index row, Eigen::Index, double) { return row < scaled.rows() - constraints; });
     Matrix stiffened = scaled;
     if (constraints > 0) stiffened += Matrix(kStiffened * columns * Matrix(columns.transpose()));
     stiffened.makeCompressed();
@@ -138,7 +141,7 @@ struct SymmetricFactors::Large {
     dmumps_c(&mumps);
   }
 
-  bool Factorize(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& scale) {
+  bool Factorize(const Eigen::SparseMatrix<double>& matrix) {
     std::vector<int> in_rows, in_columns;
     values.clear();
     for (Eigen::Index column = 0; column < matrix.cols(); ++column)
@@ -146,7 +149,7 @@ struct SymmetricFactors::Large {
         if (it.row() < column) continue;
         in_rows.push_back(static_cast<int>(it.row()) + 1);
         in_columns.push_back(static_cast<int>(column) + 1);
-        values.push_back(scale[it.row()] * it.value() * scale[column]);
+        values.push_back(it.value());
       }
     const bool same = in_rows == rows && in_columns == columns;
     rows.swap(in_rows);
@@ -183,7 +186,7 @@ struct SymmetricFactors::Large {
 SymmetricFactors::SymmetricFactors() = default;
 SymmetricFactors::~SymmetricFactors() = default;
 
-bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints) {
+bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints, bool redundant) {
   const Eigen::Index unknowns = matrix.rows() - constraints;
   scale_.setZero(matrix.rows());
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
@@ -191,14 +194,18 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
     double largest = 0.0;
     for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
       largest = std::max(largest, std::abs(it.value()) * (is_constraint ? scale_[it.row()] : 1.0));
-    scale_[column] = 1.0 / (is_constraint ? largest : std::sqrt(largest));
+    scale_[column] =
+        redundant && is_constraint && largest == 0.0 ? 1.0 : 1.0 / (is_constraint ? largest : std::sqrt(largest));
   }
   if (!scale_.allFinite() || !(scale_.array() > 0.0).all()) return false;
+  Eigen::SparseMatrix<double> scaled = scale_.asDiagonal() * matrix * scale_.asDiagonal();
+  for (Eigen::Index k = unknowns; redundant && k < matrix.rows(); ++k) scaled.coeffRef(k, k) = kCompliance;
+  scaled.makeCompressed();
   if (!small_) small_ = std::make_unique<Small>();
-  is_large_ = matrix.rows() >= kLargeSystem || !small_->Factorize(matrix, scale_, constraints);
+  is_large_ = matrix.rows() >= kLargeSystem || !small_->Factorize(scaled, constraints);
   if (!is_large_) return (small_->factors.vectorD().array().abs() > tolerances::kSingularPivot).all();
   if (!large_) large_ = std::make_unique<Large>();
-  return large_->Factorize(matrix, scale_);
+  return large_->Factorize(scaled);
 }
 
 Eigen::Index SymmetricFactors::NegativeEigenvalues() const {

@@ -23,22 +23,11 @@ double BranchMethod::SettingRate(const Eigen::VectorXd& first) const {
   return options_.setting_sense * setting_row_.dot(first.head(setting_row_.size()));
 }
 
-std::optional<Stability> BranchMethod::StabilityOn(const Step& step, double t, CurvePoint* point) {
-  const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
-  if (!there.converged) return std::nullopt;
-  // Where parts buckle the equations give no derivatives; the interpolation of the step does.
-  *point = step.At(t);
-  point->x = there.x;
-  if (stability_->HasSlips() && !arc_.Derivatives(there.x, step.normal, point)) return std::nullopt;
-  return stability_->At(arc_.system().Unpack(there.x));
-}
-
 std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, int falls,
                                                 Eigen::MatrixXd* null_directions) {
   double before = 0.0;
   int held = 0;  // directions at `before`
   std::optional<CurvePoint> place;
-  CurvePoint middle;
   for (int i = 0;; ++i) {
     // Parts that buckle at one place: curves cross there.
     bool broken = false;
@@ -51,10 +40,15 @@ std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, 
       }
     const double t = 0.5 * (before + after);
     if (!(t > before && t < after && after - before > tolerances::kLastDigits * step.length)) return place;
-    const std::optional<Stability> found = StabilityOn(step, t, &middle);
-    if (!found) return std::nullopt;
-    const bool gone = found->verdict == Verdict::kUnstable;
-    (gone ? falls : held) = found->directions;
+    const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
+    if (!there.converged) return std::nullopt;
+    // Where parts buckle the equations give no derivatives; the interpolation of the step does.
+    CurvePoint middle = step.At(t);
+    middle.x = there.x;
+    if (stability_->HasSlips() && !arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
+    const Stability found = stability_->At(arc_.system().Unpack(there.x));
+    const bool gone = found.verdict == Verdict::kUnstable;
+    (gone ? falls : held) = found.directions;
     if (gone) place = middle;
     (gone ? after : before) = t;
   }
@@ -81,7 +75,7 @@ Eigen::MatrixXd BranchMethod::NullDirections(const ArcStep& at) const {
 
 void BranchMethod::NoteStability(const CurvePoint& end, const AcceptedPoint& increment,
                                  const Eigen::MatrixXd& null_directions) {
-  stability_->Note(increment.point, end, null_directions);
+  stability_->Note(increment.point, end, null_directions, arc_.NegativeEigenvalues(end.x));
 }
 
 void BranchMethod::NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment) {
@@ -111,14 +105,16 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   if (stability_) {
     const bool held = stability_->HeldOnArc();
     NoteStability(at.step.end, *increment, NullDirections(at));
-    // What is singular at the end itself does not count on the way there.
-    const bool singular = at.step.end.is_limit || at.step.end.is_crossing;
-    const double last = (singular ? 1.0 - tolerances::kNextToStart : 1.0) * at.step.length;
-    CurvePoint there;
-    std::optional<Stability> after = stability_->UnderMachine();
-    if (!place && held && singular) after = StabilityOn(at.step, last, &there);
-    if (!place && held && after && after->verdict == Verdict::kUnstable)
-      place = OnsetOn(at.step, last, after->directions, &null_directions);
+    // What is singular at the end itself does not count on the way there, and right before it rounding decides.
+    double last = at.step.length;
+    Stability after = stability_->UnderMachine();
+    if (!place && held && (at.step.end.is_limit || at.step.end.is_crossing)) {
+      last *= 1.0 - tolerances::kSmallShare;
+      const std::optional<PathPoint> before = PointApart(at.step, last);
+      after = before ? stability_->At(*before) : Stability();
+    }
+    if (!place && held && after.verdict == Verdict::kUnstable)
+      place = OnsetOn(at.step, last, after.directions, &null_directions);
   }
   if (!place) return false;
   // An event that coincides with something else is the one to act on.

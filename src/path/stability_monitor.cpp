@@ -35,8 +35,15 @@ void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
   Write(arc_, ahead);
 }
 
-void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const Eigen::MatrixXd& null_directions) {
-  Count(point, null_directions);
+void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const Eigen::MatrixXd& null_directions,
+                            std::optional<Eigen::Index> falls) {
+  // Where supports or obstacles move besides, f . u does not tell the work along the path.
+  const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
+                           (model_.structure.PrescribedDofs().empty() && model_.scene.obstacle_motions.empty());
+  if (falls && known_ && loads_alone && null_directions.cols() == 0 && problem_.IsSymmetric(point))
+    Follow(at, static_cast<int>(*falls));
+  else
+    Count(point, null_directions);
   known_ = null_directions.cols() == 0;
   Write(arc_, &at);
 }
@@ -52,6 +59,21 @@ void StabilityMonitor::NoteEvent(const PathPoint& leaves, const CurvePoint& ahea
     at.under_machine = Worse(arrives.under_machine, arc_.under_machine);
   }
   Write(at, &ahead);
+}
+
+void StabilityMonitor::Follow(const CurvePoint& at, int falls) {
+  const auto verdict = [](int directions) {
+    return Stability{directions > 0 ? Verdict::kUnstable : Verdict::kStable, directions, {}};
+  };
+  // du . K du = (ds/dt) (f . du/dt) along the path: where it is negative, a machine holds one of the directions.
+  const Eigen::Index nd = model_.structure.NumDofs();
+  const double along = model_.structure.ReferenceLoad().dot(at.first.head(nd));
+  const bool held = falls > 0 && at.first[nd] * along < 0.0;
+  arc_.dead = verdict(falls);
+  if (held) arc_.dead.direction = at.first.head(nd).normalized();
+  arc_.controlled = verdict(falls - (held ? 1 : 0));
+  const bool by_machine = held && !machine_.IsDead() && along / at.first[nd] + machine_.Compliance() < 0.0;
+  arc_.under_machine = by_machine ? arc_.controlled : arc_.dead;
 }
 
 double StabilityMonitor::CriticalStiffness(const Verdicts& of, const CurvePoint* at) const {

@@ -28,11 +28,22 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
   singular_ = null_directions.cols() > 0 && slips_.empty();
   null_ = null_directions;
   BuildSaddle(transposed);
-  regular_ = factors_.Factorize(saddle_, saddle_.rows() - structure_.NumDofs());
+  const Eigen::Index constraints = saddle_.rows() - structure_.NumDofs();
+  // Reactions that are not unique do not matter where no contact slides.
+  regular_ = factors_.Factorize(saddle_, constraints) ||
+             (slips_.empty() && symmetric_ && factors_.Factorize(saddle_, constraints, true));
   if (!regular_) return;
   // Each equation of motion is a constraint, whose multiplier makes one eigenvalue negative.
-  negative_ = factors_.NegativeEigenvalues() - (saddle_.rows() - structure_.NumDofs());
+  negative_ = factors_.NegativeEigenvalues() - constraints;
   regular_ = negative_ >= 0 && Condense(transposed);
+}
+
+bool StabilityProblem::IsSymmetric(const PathPoint& point) const {
+  for (std::size_t i = 0; i < point.states.size(); ++i)
+    if (contacts_[i]->Frictional() && point.states[i] != ContactState::kOpen &&
+        (Slips(point.states[i]) || contacts_[i]->HasTotalLaw() || contacts_[i]->Curved()))
+      return false;
+  return true;
 }
 
 void StabilityProblem::Classify(const PathPoint& point) {

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_PATH_STABILITY_MONITOR_H_
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "contact_path/branch/step.h"
 #include "contact_path/contact/path_point.h"
@@ -20,8 +21,9 @@ class StabilityMonitor {
       : model_(model), machine_(machine), problem_(model.structure, model.contacts) {}
 
   // The next increment. at: the curve on which it was reached. null_directions: of the tangent at fixed load factor,
-  // columns du, where it is known to be singular; else no columns.
-  void Note(const PathPoint& point, const CurvePoint& at, const Eigen::MatrixXd& null_directions);
+  // columns du, where it is known to be singular; else no columns. falls: n0, where the factors of the arc tell.
+  void Note(const PathPoint& point, const CurvePoint& at, const Eigen::MatrixXd& null_directions,
+            std::optional<Eigen::Index> falls);
   // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact
   // that closes, or comes to stick, is free to do what it did where it arrives; one that opens, or comes to slip, what
   // it does where it leaves. On a kink of a surface, and where several contacts change, both sides count.
@@ -47,6 +49,8 @@ class StabilityMonitor {
     Stability dead, controlled, under_machine;
   };
   void Count(const PathPoint& point, const Eigen::MatrixXd& null_directions);
+  // With n0, where no contact slides.
+  void Follow(const CurvePoint& at, int falls);
   void Write(const Verdicts& of, const CurvePoint* at);
   // k of the machine that just holds the point, scaled.
   double CriticalStiffness(const Verdicts& of, const CurvePoint* at) const;
