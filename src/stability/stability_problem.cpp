@@ -182,7 +182,7 @@ Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
 Eigen::VectorXd StabilityProblem::FallingMode() const {
   const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
   // Not more than there are motions that the contacts admit: further columns of a basis would be none.
-  const Eigen::Index count = std::min(kModes, nd - (size - nd));
+  const Eigen::Index count = std::min(kModes, std::max(negative_, nd - (size - nd)));
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
   for (Eigen::Index k = 0; k < count; ++k) modes.col(k).head(nd) = GenericVector(nd).array().pow(k + 1);
   if (load_compliance_ < 0.0) modes.col(0).head(nd) = by_load_;

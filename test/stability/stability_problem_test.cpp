@@ -119,7 +119,7 @@ TEST(StabilityProblemTest, TwoContacts) {
 
 // A bar at 60 degrees from a head that is guided along y to a foot that slides outwards, with a spring beside it: no
 // slip of the foot strains the bar under a dead load, H = 0.05. Behind a head that a machine of stiffness k holds, it
-// has the stiffness c = 0.75 k / (1 + 0.75 k), and H = 0.05 + c (0.25 - 0.433).
+// has the stiffness c = k / (k + 0.75), and H = 0.05 + c (0.25 - 0.433).
 TEST(StabilityProblemTest, WhatADeadLoadHoldsAMachineNeedNot) {
   const Eigen::Vector2d along(0.5, -std::sqrt(0.75));
   Eigen::MatrixXd K(4, 4);
@@ -133,7 +133,7 @@ TEST(StabilityProblemTest, WhatADeadLoadHoldsAMachineNeedNot) {
   problem.Set(Sliding(model, 1.0), {});
   EXPECT_EQ(problem.Under(INFINITY).verdict, Verdict::kStable);
   EXPECT_EQ(problem.Under(0.0).verdict, Verdict::kUnstable);
-  const double share = 0.05 / (std::sqrt(0.1875) - 0.25), k = share / (0.75 * (1.0 - share));
+  const double share = 0.05 / (std::sqrt(0.1875) - 0.25), k = 0.75 * share / (1.0 - share);
   EXPECT_EQ(problem.Under(1.0 / (0.999 * k)).verdict, Verdict::kStable);
   EXPECT_EQ(problem.Under(1.0 / (1.001 * k)).verdict, Verdict::kUnstable);
 }
