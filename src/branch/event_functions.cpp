@@ -67,14 +67,15 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
 
 }  // namespace
 
-std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, Eigen::Index k, bool* broken) {
+std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, double from, double to, Eigen::Index k,
+                                          bool* broken) {
   const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
   for (const double share : {0.5, 0.1, 0.9}) {
-    const CurvePoint guess = step.At(share * step.length);
+    const CurvePoint guess = step.At(from + share * (to - from));
     std::optional<Crossing> found = arc->FindCrossing(guess.x, guess.first.head(step.normal.size()), k);
     if (!found) continue;
     const double t = step.normal.dot((found->x - step.start.x).head(step.normal.size()));
-    const double inside = std::clamp(t, 0.0, step.length);
+    const double inside = std::clamp(t, from, to);
     if (std::abs(t - inside) > tolerances::kNoMove ||
         (found->x - step.Point(inside)).head(step.normal.size()).norm() > reach)
       continue;
@@ -101,8 +102,8 @@ bool IsZeroAt(const ArcEquations& equations, const Constraint& constraint, const
 bool LookForCrossing(SmoothArc* arc, const Step& step, const StepEnds& ends, StepEvent* first) {
   ArcEquations& equations = arc->equations();
   bool broken = false;
-  std::optional<LocatedCrossing> found = CrossingOn(arc, step, 1, &broken);
-  if (!found && !broken) found = CrossingOn(arc, step, 0, &broken);
+  std::optional<LocatedCrossing> found = CrossingOn(arc, step, 0.0, step.length, 1, &broken);
+  if (!found && !broken) found = CrossingOn(arc, step, 0.0, step.length, 0, &broken);
   const EventKind kind = first->Kind();
   if (!found) {
     if (broken || kind != EventKind::kLimitPoint || step.length > tolerances::kNextToStart) return false;

@@ -37,7 +37,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   const Eigen::SparseMatrix<double>& transposed = equations_.TransposedJacobian(x);
   if (!Factorize(x, transposed, RowOf(towards))) return false;
   at_hand_ = solver_.Nullity() == 0;
-  point->x = x;
+  point->x = of_ = x;
   point->first = solver_.Solve(Eigen::VectorXd::Zero(equations_.NumEquations()), 1.0);
   const LinearisedEquations linearised(transposed);
   if (solver_.Nullity() == 0 || held_.value_or(false)) {
@@ -208,6 +208,7 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
                           const Eigen::VectorXd& row) {
   ++factorisations_;
   at_hand_ = false;
+  of_.resize(0);
   if (rests_) return solver_.Factorize(transposed, row, equations_.InFrame(), tolerances::kRootOfRounding);
   // Along an arc the same motions stay free as a rule.
   const Factorised::Kind kind =
@@ -241,11 +242,9 @@ double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint&
   return std::isfinite(error) ? error : unknown;
 }
 
-Eigen::VectorXd SmoothArc::MotionUnder(const Eigen::VectorXd& forces) const {
-  if (!at_hand_) return {};
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(equations_.NumEquations());
-  right.head(forces.size()) = forces;
-  return solver_.Solve(right, 0.0);
+std::optional<Eigen::Index> SmoothArc::NegativeEigenvalues(const Eigen::VectorXd& x) const {
+  if (!at_hand_ || of_.size() != x.size() || of_ != x) return std::nullopt;
+  return solver_.NegativeEigenvalues(NumMotion() - 1);
 }
 
 double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal) {

@@ -195,6 +195,11 @@ Eigen::Index BorderedSolver::Nullity() const {
   return factors_->regular ? factors_->null_space.cols() : factors_->unknowns - factors_->minimum_norm.Rank();
 }
 
+std::optional<Eigen::Index> BorderedSolver::NegativeEigenvalues(Eigen::Index motions) const {
+  if (!factors_->regular || !factors_->is_large || Nullity() > 0) return std::nullopt;
+  return factors_->large.NegativeEigenvalues(motions);
+}
+
 int BorderedSolver::DeterminantSign() const {
   return factors_->regular && Nullity() == 0 ? factors_->DeterminantSign() : 0;
 }

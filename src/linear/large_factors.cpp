@@ -162,6 +162,15 @@ void LargeFactors::SolveTransposed(double* y) {
   y[equations_.size()] = z[last];
 }
 
+std::optional<Eigen::Index> LargeFactors::NegativeEigenvalues(Eigen::Index symmetric) const {
+  if (unknowns_[static_cast<std::size_t>(symmetric)] + 1 != static_cast<int>(row_.size())) return std::nullopt;
+  std::vector<bool> turned(static_cast<std::size_t>(row_.size()), false);
+  const auto constraints = static_cast<Eigen::Index>(equations_.size()) - symmetric;
+  for (auto k = equations_.begin() + symmetric; k != equations_.end(); ++k) turned[static_cast<std::size_t>(*k)] = true;
+  const std::optional<Eigen::Index> negative = factors_.NegativeEigenvalues(turned);
+  return negative && *negative >= constraints ? std::optional(*negative - constraints) : std::nullopt;
+}
+
 int LargeFactors::DeterminantSign() const {
   return odd_ == (along_ < 0.0) ? factors_.DeterminantSign() : -factors_.DeterminantSign();
 }

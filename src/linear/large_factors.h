@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "contact_path/linear/frame.h"
@@ -27,6 +28,8 @@ class LargeFactors {
   // Of the pivots, smallest over largest.
   double PivotRatio() const { return factors_.PivotRatio(); }
   int DeterminantSign() const;
+  // Of J without its last unknown of the frame, as BorderedSolver has it. symmetric: its first equations.
+  std::optional<Eigen::Index> NegativeEigenvalues(Eigen::Index symmetric) const;
   // In place: M x = (b, last) for each of so many columns of n entries.
   void Solve(double* x, Eigen::Index columns);
   // In place: M' y = c, c of the unknowns, y of the equations and of the row. M' = N' + (row - border) e', e of the

@@ -2,8 +2,6 @@
 
 #include <dmumps_c.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -18,9 +16,10 @@ namespace contact_path {
 namespace {
 
 // Of scaled matrices, whose entries are 1 at most.
-constexpr double kMostGrowth = 1e6;  // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
-constexpr double kStiffened = 4.0;   // more than a negative stiffness
-constexpr double kLarge = 0.5;       // an entry of a constraint
+constexpr double kMostGrowth = 1e6;    // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
+constexpr double kStiffened = 4.0;     // more than a negative stiffness
+constexpr double kLarge = 0.5;         // an entry of a constraint
+constexpr double kCompliance = -1e-9;  // of redundant constraints: entry of their diagonal
 
 // The numbers of MUMPS' manual, which counts from 1.
 enum Communicator : int { kUseCommWorld = -987654 };
@@ -28,8 +27,9 @@ enum Job : int { kInitialise = -1, kTerminate = -2, kAnalyse = 1, kFactorise = 2
 enum Outcome : int { kNotEnoughWorkspace = -9, kSingular = -10, kOutOfMemory = -13 };
 constexpr int kMostRelaxed = 8;  // times that the estimate of the workspace is doubled
 
-// Constraints, at the end with zeros on their diagonal, each right behind the first unknown that is among its largest:
-// the two pivots are one of size two, and what is left is the matrix on the motions that the constraint admits.
+// Constraints, at the end with zeros or kCompliance on their diagonal, each right behind the first unknown that is
+// among its largest: the two pivots are one of size two, and what is left is the matrix on the motions that the
+// constraint admits.
 struct UnknownsWithConstraints {
   using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
@@ -38,7 +38,8 @@ struct UnknownsWithConstraints {
 
 void UnknownsWithConstraints::operator()(const Eigen::SparseMatrix<double>& matrix, Permutation& order) const {
   Eigen::Index unknowns = matrix.rows();
-  while (unknowns > 0 && matrix.coeff(unknowns - 1, unknowns - 1) == 0.0) --unknowns;
+  const auto is_constraint = [](double diagonal) { return diagonal == 0.0 || diagonal == kCompliance; };
+  while (unknowns > 0 && is_constraint(matrix.coeff(unknowns - 1, unknowns - 1))) --unknowns;
   Permutation of_unknowns;
   Eigen::AMDOrdering<int>()(Eigen::SparseMatrix<double>(matrix.topLeftCorner(unknowns, unknowns)), of_unknowns);
   std::vector<bool> placed(static_cast<std::size_t>(matrix.rows()));
@@ -66,17 +67,17 @@ void UnknownsWithConstraints::operator()(const Eigen::SparseMatrix<double>& matr
 
 }  // namespace
 
-// Below kLargeSystem: no call of the BLAS. Pivots are not looked for, as hardly any is small: the matrix is definite on
-// the motions that the constraints admit, up to a few directions. Where |L| |D| |L'| says that one was, eigenvalues
-// tell the count, which takes a second at 10^3 unknowns.
+// No call of the BLAS. Pivots are not looked for, as hardly any is small: the matrix is definite on the motions that
+// the constraints admit, up to a few directions.
 struct SymmetricFactors::Small {
   using Matrix = Eigen::SparseMatrix<double>;
 
-  bool Factorize(const Matrix& matrix, const Eigen::VectorXd& scale, Eigen::Index constraints) {
-    const Matrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  // False where |L| |D| |L'| says that a pivot was small beside what it divides.
+  bool Factorize(const Matrix& scaled, Eigen::Index constraints) {
     // K + kStiffened C' C in place of K: the same solutions, and no pivot of an unknown that comes with its constraint
     // is small.
     columns = scaled.rightCols(constraints);
+    columns.prune([&](Eigen::Index row, Eigen::Index, double) { return row < scaled.rows() - constraints; });
     Matrix stiffened = scaled;
     if (constraints > 0) stiffened += Matrix(kStiffened * columns * Matrix(columns.transpose()));
     stiffened.makeCompressed();
@@ -86,17 +87,13 @@ struct SymmetricFactors::Small {
                     same(pattern.innerIndexPtr(), stiffened.innerIndexPtr(), stiffened.nonZeros());
     pattern.swap(stiffened);
     factors.setShift(tolerances::kLastDigits);  // so that a pivot which is zero is told by the growth
-    is_dense = false;
-    for (const bool anew : {false, true}) {  // which entries of the constraints are large may have changed
+    for (const bool anew : {false, true}) {     // which entries of the constraints are large may have changed
       if (anew && !analysed) break;
       if (anew || !analysed) factors.analyzePattern(pattern);
       factors.factorize(pattern);
-      if (factors.info() == Eigen::Success && Growth() < kMostGrowth) return Count(factors.vectorD());
+      if (factors.info() == Eigen::Success && Growth() < kMostGrowth) return true;
     }
-    is_dense = true;
-    const Eigen::MatrixXd dense = scaled;
-    lu.compute(dense);
-    return Count(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues());
+    return false;
   }
 
   // The largest entry of |L| |D| |L'|, which is on its diagonal.
@@ -109,16 +106,7 @@ struct SymmetricFactors::Small {
     return growth.size() > 0 ? growth.maxCoeff() : 0.0;
   }
 
-  bool Count(const Eigen::VectorXd& pivots) {
-    negative = (pivots.array() < 0.0).count();
-    return (pivots.array().abs() > tolerances::kSingularPivot).all();
-  }
-
   void Solve(Eigen::MatrixXd* right) const {
-    if (is_dense) {
-      *right = lu.solve(*right);
-      return;
-    }
     if (columns.cols() > 0) *right += kStiffened * columns * right->bottomRows(columns.cols());
     *right = factors.solve(*right);
   }
@@ -126,9 +114,6 @@ struct SymmetricFactors::Small {
   Matrix pattern;  // with the values of the last time
   Matrix columns;  // of the constraints
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower, UnknownsWithConstraints> factors;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-  bool is_dense = false;
-  Eigen::Index negative = 0;
 };
 
 // By MUMPS, with the pivots of Bunch and Kaufman.
@@ -156,7 +141,7 @@ struct SymmetricFactors::Large {
     dmumps_c(&mumps);
   }
 
-  bool Factorize(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& scale) {
+  bool Factorize(const Eigen::SparseMatrix<double>& matrix) {
     std::vector<int> in_rows, in_columns;
     values.clear();
     for (Eigen::Index column = 0; column < matrix.cols(); ++column)
@@ -164,7 +149,7 @@ struct SymmetricFactors::Large {
         if (it.row() < column) continue;
         in_rows.push_back(static_cast<int>(it.row()) + 1);
         in_columns.push_back(static_cast<int>(column) + 1);
-        values.push_back(scale[it.row()] * it.value() * scale[column]);
+        values.push_back(it.value());
       }
     const bool same = in_rows == rows && in_columns == columns;
     rows.swap(in_rows);
@@ -201,7 +186,7 @@ struct SymmetricFactors::Large {
 SymmetricFactors::SymmetricFactors() = default;
 SymmetricFactors::~SymmetricFactors() = default;
 
-bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints) {
+bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints, bool redundant) {
   const Eigen::Index unknowns = matrix.rows() - constraints;
   scale_.setZero(matrix.rows());
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
@@ -209,20 +194,22 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
     double largest = 0.0;
     for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
       largest = std::max(largest, std::abs(it.value()) * (is_constraint ? scale_[it.row()] : 1.0));
-    scale_[column] = 1.0 / (is_constraint ? largest : std::sqrt(largest));
+    scale_[column] =
+        redundant && is_constraint && largest == 0.0 ? 1.0 : 1.0 / (is_constraint ? largest : std::sqrt(largest));
   }
   if (!scale_.allFinite() || !(scale_.array() > 0.0).all()) return false;
-  is_large_ = matrix.rows() >= kLargeSystem;
-  if (is_large_) {
-    if (!large_) large_ = std::make_unique<Large>();
-    return large_->Factorize(matrix, scale_);
-  }
+  Eigen::SparseMatrix<double> scaled = scale_.asDiagonal() * matrix * scale_.asDiagonal();
+  for (Eigen::Index k = unknowns; redundant && k < matrix.rows(); ++k) scaled.coeffRef(k, k) = kCompliance;
+  scaled.makeCompressed();
   if (!small_) small_ = std::make_unique<Small>();
-  return small_->Factorize(matrix, scale_, constraints);
+  is_large_ = matrix.rows() >= kLargeSystem || !small_->Factorize(scaled, constraints);
+  if (!is_large_) return (small_->factors.vectorD().array().abs() > tolerances::kSingularPivot).all();
+  if (!large_) large_ = std::make_unique<Large>();
+  return large_->Factorize(scaled);
 }
 
 Eigen::Index SymmetricFactors::NegativeEigenvalues() const {
-  return is_large_ ? large_->Information(12) : small_->negative;
+  return is_large_ ? large_->Information(12) : (small_->factors.vectorD().array() < 0.0).count();
 }
 
 void SymmetricFactors::Solve(Eigen::MatrixXd* columns) const {

@@ -3,12 +3,14 @@
 #define CONTACT_PATH_SRC_LINEAR_UMFPACK_FACTORS_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace contact_path {
 
-// Analysis of a square pattern by UMFPACK, with the fill-reducing ordering of METIS: all factors of matrices with this
-// pattern share it. Throws std::bad_alloc where there is not enough memory, and LinearSolverError where it fails.
+// Analysis of a square pattern by UMFPACK, with the fill-reducing ordering of METIS, but the last row and column last:
+// all factors of matrices with this pattern share it. Throws std::bad_alloc where there is not enough memory, and
+// LinearSolverError where it fails.
 class UmfpackAnalysis {
  public:
   // By column: entries[starts[k]] up to entries[starts[k + 1]], ascending.
@@ -44,6 +46,10 @@ class UmfpackFactors {
   // Of the pivots, smallest over largest.
   double PivotRatio() const { return pivot_ratio_; }
   int DeterminantSign() const;
+  // How many eigenvalues of the matrix without its last row and column are negative, where turning the signs of these
+  // columns makes it symmetric: by the pivots, where they come from the diagonal, alone or in pairs. Nothing: they do
+  // not.
+  std::optional<Eigen::Index> NegativeEigenvalues(const std::vector<bool>& turned) const;
   // Solves A' x = b, and A x = b.
   void SolveTransposed(const double* b, double* x);
   void Solve(const double* b, double* x);

@@ -5,38 +5,41 @@
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
+namespace {
 
-std::optional<CurvePoint> BranchMethod::BucklingOn(const Step& step, int directions, Eigen::MatrixXd* null_directions) {
-  bool broken = false;
-  const std::optional<LocatedCrossing> found = CrossingOn(&arc_, step, directions, &broken);
-  if (!found) return std::nullopt;
-  CurvePoint place = PointOf(found->at, arc_);
-  place.BeSingular();
-  *null_directions = NullDirections(found->at);
-  return place;
-}
+constexpr int kBisections = 4;  // after which a crossing is looked for anew
 
-std::optional<CurvePoint> BranchMethod::FirstUnstableOn(const Step& step) {
-  double before = 0.0, after = step.length;
+}  // namespace
+
+std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, int falls,
+                                                Eigen::MatrixXd* null_directions) {
+  double before = 0.0;
+  int held = 0;  // directions at `before`
   std::optional<CurvePoint> place;
-  for (double t = 0.5 * after; t > before && t < after && after - before > tolerances::kLastDigits * step.length;
-       t = 0.5 * (before + after)) {
+  for (int i = 0;; ++i) {
+    // Parts that buckle at one place: curves cross there.
+    bool broken = false;
+    if (i % kBisections == 0 && held >= 0 && falls > held && !stability_->HasSlips())
+      if (const auto found = CrossingOn(&arc_, step, before, after, falls - held, &broken)) {
+        place = PointOf(found->at, arc_);
+        place->BeSingular();
+        *null_directions = NullDirections(found->at);
+        return place;
+      }
+    const double t = 0.5 * (before + after);
+    if (!(t > before && t < after && after - before > tolerances::kLastDigits * step.length)) return place;
     const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
     if (!there.converged) return std::nullopt;
+    // Where parts buckle the equations give no derivatives; the interpolation of the step does.
     CurvePoint middle = step.At(t);
-    if (stability_->HasSlips()) {
-      if (!arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
-    } else {
-      // Where parts buckle the equations give no derivatives; the interpolation of the step does.
-      middle.x = there.x;
-      middle.BeSingular();
-      middle.is_crossing = true;
-    }
-    const bool gone = stability_->At(arc_.system().Unpack(there.x)) == Verdict::kUnstable;
+    middle.x = there.x;
+    if (stability_->HasSlips() && !arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
+    const Stability found = stability_->At(arc_.system().Unpack(there.x));
+    const bool gone = found.verdict == Verdict::kUnstable;
+    (gone ? falls : held) = found.directions;
     if (gone) place = middle;
     (gone ? after : before) = t;
   }
-  return place;
 }
 
 Eigen::MatrixXd BranchMethod::NullDirections(const Crossing& crossing) const {
@@ -60,7 +63,7 @@ Eigen::MatrixXd BranchMethod::NullDirections(const ArcStep& at) const {
 
 void BranchMethod::NoteStability(const CurvePoint& end, const AcceptedPoint& increment,
                                  const Eigen::MatrixXd& null_directions) {
-  stability_->Note(increment.point, arc_, end, StiffnessSign(end), null_directions);
+  stability_->Note(increment.point, end, null_directions, arc_.NegativeEigenvalues(end.x));
 }
 
 void BranchMethod::NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment) {
@@ -93,15 +96,18 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
     place = LocateTurn(&arc_, at.step, row);
   }
   if (stability_) {
-    const Verdict before = stability_->OnArc();
-    const int directions = stability_->record().unstable_directions;
+    const bool held = stability_->HeldOnArc();
     NoteStability(at.step.end, *increment, NullDirections(at));
-    const bool lost = before == Verdict::kStable && stability_->UnderMachine() == Verdict::kUnstable;
-    if (!place && lost && !at.step.end.is_limit && !at.step.end.is_crossing) {
-      const int more = stability_->record().unstable_directions - directions;
-      if (!stability_->HasSlips() && directions >= 0 && more > 0) place = BucklingOn(at.step, more, &null_directions);
-      if (!place) place = FirstUnstableOn(at.step);
+    // What is singular at the end itself does not count on the way there, and right before it rounding decides.
+    double last = at.step.length;
+    Stability after = stability_->UnderMachine();
+    if (!place && held && (at.step.end.is_limit || at.step.end.is_crossing)) {
+      last *= 1.0 - tolerances::kSmallShare;
+      const std::optional<PathPoint> before = PointApart(at.step, last);
+      after = before ? stability_->At(*before) : Stability();
     }
+    if (!place && held && after.verdict == Verdict::kUnstable)
+      place = OnsetOn(at.step, last, after.directions, &null_directions);
   }
   if (!place) return false;
   // An event that coincides with something else is the one to act on.

@@ -54,7 +54,7 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
   departure_.NoteReactions(from);
   if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
   std::optional<End> end = SetOut(from, found);
-  const bool unstable = stability_ && stability_->UnderMachine() == Verdict::kUnstable;
+  const bool unstable = stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable;
   if (!unstable || (end && end->reason != EndReason::kPathEnd)) return end;
   if (options_.at_limit == AtLimit::kStop) return End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
   if (options_.at_limit == AtLimit::kFollow) return end;
@@ -120,14 +120,16 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
 
 std::optional<PathPoint> BranchMethod::InnerPoint(const Step& step, const PathPoint& from) const {
   if (!options_.inner || !(step.length > 0.0)) return std::nullopt;
-  // On an arc of its own: the steps of the path are the same with and without inner states.
+  std::optional<PathPoint> point = PointApart(step, 0.5 * step.length);
+  if (point && !(model_.Check(from, *point).Largest() <= tolerances::kAccepted)) point.reset();
+  return point;
+}
+
+std::optional<PathPoint> BranchMethod::PointApart(const Step& step, double t) const {
   ContactArc arc(model_.structure, model_.contacts);
   arc.SetStates(arc_.system().states(), arc_.system().Unpack(step.start.x), arc_.Rests());
-  const Correction middle = arc.CorrectOnPlane(step.Point(0.5 * step.length), step.normal);
-  if (!middle.converged) return std::nullopt;
-  PathPoint point = arc.system().Unpack(middle.x);
-  const bool sound = model_.Check(from, point).Largest() <= tolerances::kAccepted;
-  return sound ? std::optional(std::move(point)) : std::nullopt;
+  const Correction found = arc.CorrectOnPlane(step.Point(t), step.normal);
+  return found.converged ? std::optional(arc.system().Unpack(found.x)) : std::nullopt;
 }
 
 std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at) {

@@ -41,7 +41,7 @@ std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
     const Eigen::VectorXd ahead = current_.x + length * branch.first + 0.5 * length * length * branch.second;
     const Correction there = arc_.CorrectOnPlane(ahead, branch.first.head(n));
     return there.converged && parameter_.Rate(there.x - current_.x, n) > 0.0 &&
-           stability_->At(arc_.system().Unpack(there.x)) == Verdict::kStable;
+           stability_->At(arc_.system().Unpack(there.x)).verdict == Verdict::kStable;
   };
   return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
 }
@@ -52,7 +52,7 @@ void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, 
   if (advance->end && !none) return;
   const Eigen::Index n = arc_.NumMotion();
   const bool turns = !none && parameter_.Sense(current_.first, current_.second, n, tolerances::kRate) < 0;
-  const bool unstable = stability_ && stability_->UnderMachine() == Verdict::kUnstable;
+  const bool unstable = stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable;
   if (options_.at_limit == AtLimit::kStop) {
     if (turns || (unstable && !none)) advance->end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
     return;
@@ -132,7 +132,7 @@ Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& pus
   advance.end = SetOut(increment.point, &found);
   increment.event = std::move(found.branches);
   increment.stability = std::move(found.stability);
-  if (stability_ && stability_->UnderMachine() == Verdict::kUnstable) {
+  if (stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable) {
     push_ = Push(increment.point, push);
     turned_ = advance.end.has_value();
     advance.end.reset();

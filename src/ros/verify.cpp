@@ -87,7 +87,8 @@ bool Verify(const RecordedTrace& trace) {
   const bool proved = verification.findings.empty() && lacks.empty();
   if (proved)
     std::cout << "proved: every increment that has its state is an equilibrium of the scene; the trace ended "
-              << trace.result->end_reason_name << '\n';
+              << trace.result->end_reason_name << "; verdicts of stability: " << verification.proved_verdicts
+              << " found anew, " << verification.open_verdicts << " not checked\n";
   else
     std::cout << "NOT proved\n";
   return proved;

@@ -29,6 +29,12 @@ Eigen::MatrixXd Submatrix(const Eigen::MatrixXd& matrix, const std::vector<int>&
   return part;
 }
 
+// Whether a matrix is positive definite by its symmetric part: then no motion among these contacts grows.
+bool IsDefinite(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd symmetric = 0.5 * (matrix + matrix.transpose());
+  return symmetric.llt().info() == Eigen::Success;
+}
+
 Set All(const Eigen::MatrixXd& matrix) { return (Set{1} << matrix.rows()) - 1; }
 
 // Turned so that its components are positive; nothing where they have both signs.
@@ -44,11 +50,13 @@ bool IsStrictlyCopositive(const Eigen::MatrixXd& F) {
   const Eigen::MatrixXd symmetric = 0.5 * (F + F.transpose());
   const double level = tolerances::kDependent * symmetric.cwiseAbs().maxCoeff();
   const Eigen::MatrixXd lowered = symmetric - level * Eigen::MatrixXd::Identity(F.rows(), F.cols());
-  if (lowered.llt().info() == Eigen::Success) return true;
+  if (IsDefinite(lowered)) return true;
   if (F.rows() > kMostSlips) return false;
   for (Set set = 1; set <= All(F); ++set) {
     const std::vector<int> members = Members(set);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Submatrix(lowered, members, members));
+    const Eigen::MatrixXd part = Submatrix(lowered, members, members);
+    if (IsDefinite(part)) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part);
     for (Eigen::Index k = 0; k < solver.eigenvalues().size() && solver.eigenvalues()[k] <= 0.0; ++k)
       if (AsPositive(solver.eigenvectors().col(k))) return false;
   }
@@ -87,7 +95,9 @@ std::vector<GrowingSlip> GrowingSlips(const Eigen::MatrixXd& H) {
   const double level = tolerances::kDependent * H.cwiseAbs().maxCoeff();
   for (Set set = 1; set <= All(H); ++set) {
     const std::vector<int> members = Members(set), others = Members(All(H) & ~set);
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(Submatrix(H, members, members));
+    const Eigen::MatrixXd among = Submatrix(H, members, members);
+    if (IsDefinite(among - level * Eigen::MatrixXd::Identity(among.rows(), among.cols()))) continue;
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(among);
     for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
       if (solver.eigenvalues()[k].real() > level || solver.eigenvalues()[k].imag() != 0.0) continue;
       const std::optional<Eigen::VectorXd> part = AsPositive(solver.eigenvectors().col(k).real());

@@ -28,11 +28,22 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
   singular_ = null_directions.cols() > 0 && slips_.empty();
   null_ = null_directions;
   BuildSaddle(transposed);
-  regular_ = factors_.Factorize(saddle_, saddle_.rows() - structure_.NumDofs());
+  const Eigen::Index constraints = saddle_.rows() - structure_.NumDofs();
+  // Reactions that are not unique do not matter where no contact slides.
+  regular_ = factors_.Factorize(saddle_, constraints) ||
+             (slips_.empty() && symmetric_ && factors_.Factorize(saddle_, constraints, true));
   if (!regular_) return;
   // Each equation of motion is a constraint, whose multiplier makes one eigenvalue negative.
-  negative_ = factors_.NegativeEigenvalues() - (saddle_.rows() - structure_.NumDofs());
+  negative_ = factors_.NegativeEigenvalues() - constraints;
   regular_ = negative_ >= 0 && Condense(transposed);
+}
+
+bool StabilityProblem::IsSymmetric(const PathPoint& point) const {
+  for (std::size_t i = 0; i < point.states.size(); ++i)
+    if (contacts_[i]->Frictional() && point.states[i] != ContactState::kOpen &&
+        (Slips(point.states[i]) || contacts_[i]->HasTotalLaw() || contacts_[i]->Curved()))
+      return false;
+  return true;
 }
 
 void StabilityProblem::Classify(const PathPoint& point) {
@@ -171,7 +182,7 @@ Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
 Eigen::VectorXd StabilityProblem::FallingMode() const {
   const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
   // Not more than there are motions that the contacts admit: further columns of a basis would be none.
-  const Eigen::Index count = std::min(kModes, nd - (size - nd));
+  const Eigen::Index count = std::min(kModes, std::max(negative_, nd - (size - nd)));
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
   for (Eigen::Index k = 0; k < count; ++k) modes.col(k).head(nd) = GenericVector(nd).array().pow(k + 1);
   if (load_compliance_ < 0.0) modes.col(0).head(nd) = by_load_;
@@ -238,6 +249,8 @@ Stability StabilityProblem::Under(double compliance) const {
     if (flexible == 0.0) flexible = 1.0;
     if (std::abs(machine) <= tolerances::kRootOfRounding * flexible) machine = tolerances::kRootOfRounding * flexible;
   }
+  // What rounding leaves of a compliance that is not negative: of a stiffness without a falling direction.
+  if (slips_.empty() && negative_ == 0) machine = std::abs(machine);
   const double share = dead ? 0.0 : 1.0 / machine;
   const Eigen::Index n0 = negative_ - (!dead && machine < 0.0 ? 1 : 0);
   const int sign = dead || machine > 0.0 ? sign_ : -sign_;

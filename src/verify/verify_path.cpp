@@ -99,7 +99,6 @@ class StageVerifier {
         findings_.Report("energy is released, but there is no jump");
       if (!increment.positions.empty()) {
         points_.Check(jumps ? nullptr : before, increment);
-        stability_.Check(increment);
         if (before != nullptr) integrals_.CheckSetting(*before, increment, options_.machine_stiffness);
         if (before != nullptr && !jumps) {
           const bool next = before == &increments_[increment_ - 1];
@@ -111,6 +110,7 @@ class StageVerifier {
       } else if (increment.kind != IncrementKind::kRegular || increment.index % full_state_every_ == 0) {
         findings_.Report("has no state, though full_state_every = ", full_state_every_, " wants it");
       }
+      stability_.Check(increment);
       CheckEvent(increment);
       CheckLimit();
     }

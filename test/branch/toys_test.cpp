@@ -133,7 +133,7 @@ TEST(Toys, SeveralPitchforksAtOnePoint) {
       const ArcStep step = walk.ToEvent(1);
       bool broken = false;
       for (const Eigen::Index k : {Eigen::Index{0}, size - 1}) {
-        const std::optional<LocatedCrossing> on = CrossingOn(&walk.arc(), step.step, k, &broken);
+        const std::optional<LocatedCrossing> on = CrossingOn(&walk.arc(), step.step, 0.0, step.step.length, k, &broken);
         ASSERT_TRUE(on) << k;
         found = on->at;
       }

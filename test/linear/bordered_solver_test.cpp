@@ -269,7 +269,7 @@ TEST(BorderedSolver, LargeAndSingular) {
 // A matrix that is singular to rounding has no LU to solve with, whatever the solver has factorised before.
 TEST(BorderedSolver, LargeAndNearlySingular) {
   const Eigen::Index n = 4000;
-  const Chain regular = ChainOf(Eigen::VectorXd::Constant(n - 1, 1.01));
+  const Chain regular = ChainOf(Eigen::VectorXd::Constant(n - 1, 1.001));
   BorderedSolver used;
   ASSERT_TRUE(used.FactorizeRegular(regular.transposed, Eigen::VectorXd::Ones(n)));
   EXPECT_TRUE(used.HasLu());

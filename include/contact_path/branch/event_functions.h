@@ -66,13 +66,14 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
 // does not.
 std::optional<CurvePoint> LocateTurn(SmoothArc* arc, const Step& step, const Eigen::VectorXd& row);
 
-// The point on the curve of the step at which k other curves cross, and its parameter; 0: as many as there are.
-// *broken: becomes true where a crossing was found that an imperfection has broken.
+// The point on the curve of the step at which k other curves cross, and its parameter, between two parameters; k = 0:
+// as many as there are. *broken: becomes true where a crossing was found that an imperfection has broken.
 struct LocatedCrossing {
   double t = 0.0;
   Crossing at;
 };
-std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, Eigen::Index k, bool* broken);
+std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, double from, double to, Eigen::Index k,
+                                          bool* broken);
 // The point itself.
 CurvePoint PointOf(const Crossing& crossing, const SmoothArc& arc);
 

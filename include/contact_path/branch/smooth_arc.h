@@ -58,12 +58,12 @@ class SmoothArc {
   // How far rounding of the equations may move a point x of the curve on the plane with this normal in (u, s).
   double MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal);
 
-  // J x = (forces, 0), one solution of many that differ along the tangent, by the factors of the last Derivatives(): of
-  // its point where nothing else was solved since. Empty: they are singular. forces: NumMotion() - 1.
-  Eigen::VectorXd MotionUnder(const Eigen::VectorXd& forces) const;
-
   // Where k other curves cross, or nearly cross, the arc near guess, whose tangent in (u, s) is about `tangent`.
   std::optional<Crossing> FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent, Eigen::Index k);
+
+  // Of a large system at a point x of a curve on which the load factor is free: BorderedSolver::NegativeEigenvalues(),
+  // where the factors at hand are of that point.
+  std::optional<Eigen::Index> NegativeEigenvalues(const Eigen::VectorXd& x) const;
 
   // The rounding of a limit's value: down to minus this it counts as holding.
   double RoundingOf(const Constraint& limit) const {
@@ -95,6 +95,7 @@ class SmoothArc {
   Factorised factors_;
   BorderedSolver& solver_ = factors_.solver;
   bool at_hand_ = false;  // regular factors of a point of the curve, the last row along the tangent
+  Eigen::VectorXd of_;    // the point whose factors they are; empty: not known
   // Whether the last factors are those of springs that hold free motions; nothing: the arc begins.
   std::optional<bool> held_;
   double reaction_error_ = 0.0;  // of the last point that Newton's method found

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <optional>
 
 #include "contact_path/linear/frame.h"
 #include "contact_path/linear/large_system.h"
@@ -56,6 +57,10 @@ class BorderedSolver {
   Eigen::Index Nullity() const;
   // Sign of the determinant of M; 0 if M is singular or not square.
   int DeterminantSign() const;
+  // Of a regular M with large factors, whose first `motions` unknowns have symmetric entries in as many equations, and
+  // whose further equations are constraints of these unknowns with multipliers among the further unknowns, but one: the
+  // negative eigenvalues of these entries on what the constraints admit, where the factors tell.
+  std::optional<Eigen::Index> NegativeEigenvalues(Eigen::Index motions) const;
 
  private:
   struct Factors;

@@ -9,8 +9,8 @@
 namespace contact_path {
 
 // Of [K C'; C 0], K unknowns x unknowns, C constraints x unknowns. By Sylvester's law of inertia D has as many negative
-// eigenvalues as the matrix. Below kLargeSystem without the BLAS, so that counts do not depend on the processor; beyond
-// by MUMPS.
+// eigenvalues as the matrix. Below kLargeSystem without the BLAS, so that counts do not depend on the processor;
+// beyond, and where a small pivot takes digits, by MUMPS.
 class SymmetricFactors {
  public:
   SymmetricFactors();
@@ -18,10 +18,11 @@ class SymmetricFactors {
   SymmetricFactors(const SymmetricFactors&) = delete;
   SymmetricFactors& operator=(const SymmetricFactors&) = delete;
 
-  // matrix: both triangles, compressed; its last rows are the constraints. False if it is singular: its smallest pivot
-  // is below tolerances::kSingularPivot, with rows and columns divided so that entries are 1 at most.
-  // Throws std::bad_alloc where there is not enough memory, and LinearSolverError where MUMPS fails otherwise.
-  bool Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints);
+  // matrix: both triangles, compressed; its last rows are the constraints. redundant: they may depend on each other,
+  // and have a compliance far below that of K, which counts them nevertheless. False if it is singular: its smallest
+  // pivot is below tolerances::kSingularPivot, with rows and columns divided so that entries are 1 at most. Throws
+  // std::bad_alloc where there is not enough memory, and LinearSolverError where MUMPS fails otherwise.
+  bool Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints, bool redundant = false);
   Eigen::Index NegativeEigenvalues() const;
   // Solves A x = b in place for each column.
   void Solve(Eigen::MatrixXd* columns) const;

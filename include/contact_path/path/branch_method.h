@@ -44,6 +44,8 @@ class BranchMethod : public PathMethod {
   // The exact point of the arc on the plane at half of the step, where the options want it and Newton's method finds
   // it.
   std::optional<PathPoint> InnerPoint(const Step& step, const PathPoint& from) const;
+  // The same at t, by an arc of its own, so that the steps of the path are the same with and without the point.
+  std::optional<PathPoint> PointApart(const Step& step, double t) const;
   // Where the path comes back to an earlier increment on the step: its number, and the step ends there. Not where a
   // branch is to be chosen farther on: then a path that comes back need not repeat.
   std::optional<int> EndAtReturn(const PathPoint& from, ArcStep* at);
@@ -56,11 +58,9 @@ class BranchMethod : public PathMethod {
   // on it, contacts that slip let go, or several parts buckle at one place. Whether there is such a place; increment:
   // of the step, made anew then.
   bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
-  // The place on the step at which as many parts buckle at once as directions become unstable: curves cross there.
-  std::optional<CurvePoint> BucklingOn(const Step& step, int directions, Eigen::MatrixXd* null_directions);
-  // The first place on the step that is unstable, by bisection on the verdict: contacts that slip let go, or parts that
-  // are nearly equal buckle one right behind the other.
-  std::optional<CurvePoint> FirstUnstableOn(const Step& step);
+  // The place on the step at which it becomes unstable, before the parameter `after`, by bisection on the verdict;
+  // where parts buckle at one place, the point at which so many curves cross. falls: the directions at `after`.
+  std::optional<CurvePoint> OnsetOn(const Step& step, double after, int falls, Eigen::MatrixXd* null_directions);
   // Of a point inside the arc; null_directions: of the tangent at fixed load factor, du, where it is singular.
   void NoteStability(const CurvePoint& end, const AcceptedPoint& increment, const Eigen::MatrixXd& null_directions);
   // Of the arc that begins at the event at the end of the step.

@@ -50,6 +50,8 @@ class StabilityProblem {
   // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
   // control. Without reference loads the machine is rigid already: as with dead loads.
   Stability Under(double compliance) const;
+  // Whether the tangent is symmetric at a point with these states: no contact slides, or sticks where it is curved.
+  bool IsSymmetric(const PathPoint& point) const;
   // Whether contacts are at the edge of their cones.
   bool HasSlips() const { return !slips_.empty(); }
 

@@ -26,6 +26,7 @@ struct Verification {
   int exact_increments = 0;     // of the full ones, those that solve the unregularised equations
   int proved_integrals = 0;     // full increments that move and have a third state on their arc, for the integrals
   int proved_verdicts = 0;      // increments whose stability was found anew by second differences
+  int open_verdicts = 0;        // those that are recorded as stable or unstable, and were not looked at
   int open_integrals = 0;       // those that have none: chord and energy balance tell. Increments by Ipopt: neither
   Residuals exact;              // largest of the exact increments, computed anew
   Residuals regularised;        // of the other ones
@@ -48,10 +49,10 @@ struct Verification {
 // change only at events, the load factor turns at limit points and only there, and the branch taken at an event is the
 // one that follows; stages follow each other at their targets, in the same state. Over a jump: the balance of energies
 // with what was released, and the work of the loads under the machine, to 1e-9; no law of friction between its ends.
-// Verdicts of stability of small structures whose contacts do not slip. A contact that pulls with more than 0.02 of the
-// largest reaction so far is a finding, however small both are. Where nothing of all that is found, events
-// and signs are looked at (VerifyEvents()). Not checked: rates of branches that were not taken, verdicts where
-// contacts slip, landing_robust, counters and times.
+// Verdicts of stability of structures of up to 400 components whose contacts do not slip. A contact that pulls with
+// more than 0.02 of the largest reaction so far is a finding, however small both are. Where nothing of all that is
+// found, events and signs are looked at (VerifyEvents()). Not checked: rates of branches that were not taken, verdicts
+// where contacts slip, landing_robust, counters and times.
 //
 // before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,
