@@ -194,7 +194,7 @@ class Jumper {
         }
       }
       if (unstable && nearby && nearby->landing &&
-          Largest(nearby->now.u - from.now.u) > tolerances::kSamePoint * extent_) {
+          Largest(nearby->now.u - from.now.u) > tolerances::kSameTangent * extent_) {
         nearby->came_back = false;
         return *nearby;
       }
@@ -319,7 +319,7 @@ class Jumper {
     Course& course = motion->course;
     const Eigen::VectorXd du = step.point.u - course.now.u;
     const double speed = du.norm() / motion->time;
-    work_.Add(course.now, step, &course.work);
+    work_.Add(course.now, step, motion->pushed == 0.0, &course.work);
     ++course.steps;
     course.length += Largest(du);
     course.norm += du.norm();
@@ -368,7 +368,7 @@ class Jumper {
     if (!correction.converged || !InequalitiesHold(correction.x)) return;
     MotionStep last = *step;
     last.point = system.Unpack(correction.x);
-    work_.Add(at, last, &course->work);
+    work_.Add(at, last, false, &course->work);
     course->now = last.point;
     Landing landing;
     landing.point = last.point;

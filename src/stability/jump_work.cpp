@@ -6,8 +6,8 @@
 
 namespace contact_path {
 
-void WorkOfMotion::Add(const PathPoint& from, const MotionStep& step, Work* work) {
-  bool impact = false;
+void WorkOfMotion::Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work) {
+  bool impact = pushed;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     impact = impact || step.closed_after[i] > 0.0 ||
              (from.states[i] != ContactState::kOpen && from.Patch(i) != step.point.Patch(i));
@@ -31,10 +31,11 @@ double WorkOfMotion::OfContact(std::size_t i, const PathPoint& from, const Motio
   const double owed = std::exchange(work->owed[i], 0.0), before = pair.Friction() * from.rn[k];
   if (Slips(to.states[i])) {
     const double length = std::abs(slip()) * (1.0 - step.closed_after[i]), after = pair.Friction() * to.rn[k];
-    if (impact) {
-      work->owed[i] = owed + (known ? 0.5 : 1.0) * length;
-      return known ? 0.5 * before * length : 0.0;
+    if (impact && from.states[i] == ContactState::kOpen) {
+      work->owed[i] = length;
+      return 0.0;
     }
+    if (impact) return (known ? std::min(before, after) : after) * (length + owed);
     work->slopes[i] = length > 0.0 && known ? (before - after) / length : 0.0;
     return 0.5 * ((known ? before : after) + after) * length + after * owed;
   }

@@ -19,8 +19,8 @@ struct Work {
 
   double friction = 0.0, loads = 0.0;
   std::vector<double> slopes;  // by candidate: how its friction force has fallen with its slip
-  // By candidate: slip in steps in which a contact closes, or slides over a kink of its surface. Drag makes reactions
-  // of an impact there; those behind it are the reactions of the next step.
+  // By candidate: slip in the step in which it has closed. Drag makes reactions of an impact there, and those behind it
+  // are the reactions of the next step.
   std::vector<double> owed;
   bool after_impact = false;
 };
@@ -32,7 +32,8 @@ class WorkOfMotion {
   WorkOfMotion(const Structure& structure, const ContactPairs& contacts)
       : structure_(structure), contacts_(contacts), driving_(structure, contacts) {}
 
-  void Add(const PathPoint& from, const MotionStep& step, Work* work);
+  // pushed: the step has the disturbance; drag makes reactions of it as of an impact.
+  void Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work);
 
  private:
   double OfContact(std::size_t i, const PathPoint& from, const MotionStep& step, bool impact, Work* work) const;
