@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "contact_path/branch/contact_arc.h"
+#include "contact_path/iterations.h"
 #include "contact_path/linear/generic_vector.h"
+#include "contact_path/stability/stability_problem.h"
 #include "contact_path/tolerances.h"
+#include "stability/jump_work.h"
 #include "stability/motion_step.h"
 
 namespace contact_path {
 namespace {
 
-// A motion that ends within so many pushes has come back.
-constexpr double kBack = 10.0;
 // Largest motion of a step, of the extent of the structure and of the way from the start.
 constexpr double kStride = 0.01;
 // Steps on the way of a jump, at least. Half as long steps change the work of friction by less than 1e-3 of itself: by
@@ -26,21 +27,11 @@ constexpr double kLeastSteps = 200.0;
 constexpr double kLeastStepsOfSwing = 40.0;
 // Of critical, for the slowest motion.
 constexpr double kLightDrag = 0.03;
-// Kinetic energy that does not lift the structure out of a valley any more, of the largest on the way.
-constexpr double kAtRest = 1e-3;
 // Extents of the structure: what goes farther flies off.
 constexpr double kFar = 1e3;
-// Ratio of the speeds of two steps, 1 / (1 - lambda h) by implicit Euler: beyond, growth is taken for decay. A step of
-// twice the length stays below this ratio if the ratio now is below kSlowGrowth. Decay by this ratio settles within few
-// steps.
-constexpr double kMostGrowth = 2.0, kSlowGrowth = 2.0 * kMostGrowth / (kMostGrowth + 1.0);
-// First step: drag is so many times the stiffness, so that each contact alone decides on its state.
-constexpr double kFirstDrag = 10.0;
-constexpr double kOverStride = 1.5;   // a step that is longer than it should be by less is not made again
-constexpr int kMostShortenings = 12;  // of a step for its quality; kinks of the motion stay
-constexpr int kEasyIterations = 6;    // of Newton's method in a step that may become longer
-constexpr int kEasyRounds = 2;        // of the active set
-constexpr int kMostSteps = 20000;
+// Ratio of two lengths or speeds of steps, one behind the other. Of the speeds it is 1 / (1 - lambda h) by implicit
+// Euler: beyond, growth is taken for decay. Decay by this ratio settles within few steps.
+constexpr double kMostGrowth = 2.0;
 
 double Largest(const Eigen::VectorXd& change) { return change.size() == 0 ? 0.0 : change.lpNorm<Eigen::Infinity>(); }
 
@@ -106,73 +97,18 @@ struct Resistance {
   }
 };
 
-// Work along the way, by the trapezoidal rule.
-class WorkAlong {
- public:
-  WorkAlong(const Structure& structure, const ContactPairs& contacts)
-      : structure_(structure), contacts_(contacts), slopes_(contacts.size(), 0.0), driving_(structure, contacts) {}
-
-  void Add(const PathPoint& from, const MotionStep& step) {
-    const bool impact =
-        std::any_of(step.closed_after.begin(), step.closed_after.end(), [](double share) { return share > 0.0; });
-    end_alone_ = impact || after_impact_;
-    after_impact_ = impact;
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (contacts_[i]->Frictional()) friction_ += OfContact(i, from, step);
-    const PathPoint& to = step.point;
-    const Eigen::VectorXd du = to.u - from.u;
-    loads_ += 0.5 * (from.s + to.s) * structure_.ReferenceLoad().dot(du) + structure_.ConstantLoad().dot(du);
-    if (to.s != from.s) loads_ += 0.5 * (DrivingForce(from) + DrivingForce(to)) * (to.s - from.s);
-  }
-  double friction() const { return friction_; }
-  double loads() const { return loads_; }
-
- private:
-  double OfContact(std::size_t i, const PathPoint& from, const MotionStep& step) {
-    const ContactPair& pair = *contacts_[i];
-    const PathPoint& to = step.point;
-    const auto k = static_cast<Eigen::Index>(i);
-    const auto slip = [&] {
-      return pair.Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i));
-    };
-    if (pair.HasTotalLaw()) return -0.5 * (from.rt[k] + to.rt[k]) * slip();
-    const bool touched = from.states[i] != ContactState::kOpen;
-    if (Slips(to.states[i])) {
-      const double length = std::abs(slip()) * (1.0 - step.closed_after[i]);
-      const double after = pair.Friction() * to.rn[k],
-                   before = touched && !end_alone_ ? pair.Friction() * from.rn[k] : after;
-      slopes_[i] = length > 0.0 ? (before - after) / length : 0.0;
-      return 0.5 * (before + after) * length;
-    }
-    if (to.states[i] != ContactState::kOpen || !Slips(from.states[i])) return 0.0;
-    // It slides until nothing presses it: as far as its force falls on as it has fallen.
-    const double force = pair.Friction() * from.rn[k], length = std::abs(slip());
-    return 0.5 * force * (slopes_[i] > 0.0 ? std::min(length, force / slopes_[i]) : length);
-  }
-  // Of moving supports and obstacles, along their motion with s.
-  double DrivingForce(const PathPoint& at) {
-    driving_.SetStates(at.states, SlipReferences(contacts_, at), at.patches);
-    const Eigen::VectorXd x = driving_.Pack(at), still = Eigen::VectorXd::Zero(x.size());
-    return driving_.DrivingForceAlong(x, still, still).value;
-  }
-
-  const Structure& structure_;
-  const ContactPairs& contacts_;
-  std::vector<double> slopes_;  // by candidate: how its friction force has fallen with its slip
-  FixedStateSystem driving_;
-  // Reactions of a step in which a contact closes are of an impact: they hold in this step alone.
-  bool after_impact_ = false, end_alone_ = false;
-  double friction_ = 0.0, loads_ = 0.0;
-};
-
 // How one motion went.
 struct Course {
+  PathPoint now;
+  Work work;
   std::optional<Landing> landing;
-  double followed = 0.0;  // largest distance from the start
-  double length = 0.0;    // of the way, by the largest unknown of each step
-  double norm = 0.0;      // of the way, by the Euclidean norm
-  Eigen::VectorXd left;   // motion (u) with which it has left the start for good; empty where it has not
-  bool came_back = false;
+  int steps = 0;
+  double followed = 0.0;      // largest distance from the start
+  double length = 0.0;        // of the way, by the largest unknown of each step
+  double norm = 0.0;          // of the way, by the Euclidean norm
+  Eigen::VectorXd left = {};  // disturbance (u) with which it has left the start
+  bool rests = false;         // at an equilibrium; without a landing where that is singular
+  bool came_back = false;     // no farther from where it was left than it was pushed
   bool cancelled = false;
 };
 
@@ -182,9 +118,12 @@ class Jumper {
          const std::function<bool()>& cancelled)
       : structure_(structure),
         contacts_(contacts),
+        compliance_(machine.Compliance()),
         machine_(MachineEquation::Of(structure, machine, from)),
         solver_(structure, contacts, machine_),
         arc_(structure, contacts),
+        stability_(structure, contacts),
+        work_(structure, contacts),
         start_(solver_.WithPatches(from)),
         extent_(ExtentOf(structure, from.u)),
         diagonal_(DiagonalStiffness(structure, from.u)),
@@ -195,14 +134,13 @@ class Jumper {
 
   JumpResult Run(const Eigen::VectorXd& push, bool checked) {
     JumpResult result;
-    const double size = Largest(push);
-    if (!(size > 0.0)) return result;
-    // A limit point is left with the square of the distance from it, a bifurcation with the third power.
-    Course course;
-    for (const double share : {tolerances::kShort, tolerances::kNextToStart}) {
-      Eigen::VectorXd disturbance = share * extent_ / size * push;
-      course = FollowFinely(&disturbance);
-      if (!course.came_back) break;
+    const Resistance uniform = {0.0 * moved_, moved_};
+    stride_ = kStride * extent_;
+    Course course = Follow(uniform, push, stride_);
+    // With as many steps as the way wants.
+    while (course.landing && course.length / kLeastSteps < 0.99 * stride_) {
+      stride_ = course.length / kLeastSteps;
+      course = Follow(uniform, course.left, stride_);
     }
     result.cancelled = course.cancelled;
     result.came_back = course.came_back;
@@ -213,37 +151,67 @@ class Jumper {
   }
 
  private:
-  // With the disturbance, or where the structure comes back against it: then it has the other sign.
-  Course FollowEither(const Resistance& resistance, Eigen::VectorXd* disturbance, double stride) {
-    Course course = Follow(resistance, *disturbance, stride);
-    if (!course.came_back) return course;
-    *disturbance = -*disturbance;
-    return Follow(resistance, *disturbance, stride);
+  // From the start to where the structure is stable: from where it is not it moves on.
+  Course Follow(const Resistance& resistance, const Eigen::VectorXd& push, double stride) {
+    Course course{start_, Work(contacts_.size()), std::nullopt};
+    Stability at = StabilityOf(start_);
+    std::vector<Eigen::VectorXd> directions = {push};
+    if (at.verdict != Verdict::kStable)
+      directions.push_back(at.direction.size() > 0 ? at.direction : GenericVector(moved_.size()));
+    for (;;) {
+      Course next = Leave(resistance, course, directions, at.verdict == Verdict::kUnstable, stride);
+      if (next.came_back) {
+        // It is held here. Where that is known to be wrong, it has not landed.
+        course.came_back = course.steps == 0;
+        if (at.verdict == Verdict::kUnstable) course.landing.reset();
+        return course;
+      }
+      course = std::move(next);
+      if (!course.rests) return course;
+      at = StabilityOf(course.now);
+      if (course.landing) course.landing->verdict = at.verdict;
+      if (course.landing && at.verdict == Verdict::kStable) return course;
+      directions = {at.direction, GenericVector(moved_.size())};
+      for (Eigen::VectorXd& direction : directions)
+        if (direction.size() > 0 && direction.dot(course.now.u - start_.u) < 0.0) direction = -direction;
+    }
   }
 
-  // By uniform drag, with as many steps as the way of the jump wants.
-  Course FollowFinely(Eigen::VectorXd* disturbance) {
-    const Resistance uniform = {0.0 * moved_, moved_};
-    for (stride_ = kStride * extent_;;) {
-      Course course = FollowEither(uniform, disturbance, stride_);
-      const double wanted = course.length / kLeastSteps;
-      if (!course.landing || wanted >= 0.99 * stride_) return course;
-      stride_ = wanted;
+  // By the first disturbance from which the structure does not come back. A limit point is left with the square of the
+  // distance from it, a bifurcation with the third power. unstable: what it left is; then it may come to rest nearby.
+  Course Leave(const Resistance& resistance, const Course& from, const std::vector<Eigen::VectorXd>& directions,
+               bool unstable, double stride) {
+    std::optional<Course> nearby;
+    for (const double share : {tolerances::kShort, tolerances::kNextToStart}) {
+      for (const Eigen::VectorXd& direction : directions) {
+        if (direction.size() == 0 || direction.cwiseProduct(moved_).isZero(0.0)) continue;
+        const Eigen::VectorXd free = direction.cwiseProduct(moved_),
+                              disturbance = share * extent_ / Largest(free) * free;
+        for (const double sense : {1.0, -1.0}) {
+          Course course = Move(resistance, from, sense * disturbance, stride);
+          if (!course.came_back) return course;
+          if (!nearby || (course.landing && !nearby->landing)) nearby = std::move(course);
+        }
+      }
+      if (unstable && nearby && nearby->landing &&
+          Largest(nearby->now.u - from.now.u) > tolerances::kSameTangent * extent_) {
+        nearby->came_back = false;
+        return *nearby;
+      }
     }
+    Course back = from;
+    back.came_back = true;
+    return back;
   }
 
   // Adds the other drags.
   void Compare(const Course& uniform, JumpResult* result) {
-    const Eigen::VectorXd disturbance = tolerances::kShort * extent_ / Largest(uniform.left) * uniform.left;
-    Eigen::VectorXd either = disturbance;
     const Eigen::VectorXd by_stiffness = moved_.cwiseProduct(StiffnessOfNodes(structure_, diagonal_));
-    result->landings[1] = FollowEither({0.0 * moved_, by_stiffness}, &either, stride_).landing;
+    result->landings[1] = Follow({0.0 * moved_, by_stiffness}, uniform.left, stride_).landing;
     // The slowest motion: the energy released, as kinetic energy of a swing over half the way.
-    const double released = std::max(0.0, uniform.landing->energy_released());
-    either = disturbance;
-    const double rate = 2.0 * std::sqrt(2.0 * released) / uniform.norm;
+    const double rate = 2.0 * std::sqrt(2.0 * uniform.landing->energy_released()) / uniform.norm;
     result->landings[2] =
-        FollowEither({moved_, 2.0 * kLightDrag * rate * moved_}, &either, uniform.length / kLeastStepsOfSwing).landing;
+        Follow({moved_, 2.0 * kLightDrag * rate * moved_}, uniform.left, uniform.length / kLeastStepsOfSwing).landing;
     result->robust = true;
     for (const std::optional<Landing>& a : result->landings) {
       result->robust = result->robust && a.has_value();
@@ -254,15 +222,20 @@ class Jumper {
     result->cancelled = Cancelled();
   }
 
+  Stability StabilityOf(const PathPoint& point) {
+    stability_.Set(point, {});
+    return stability_.Under(compliance_);
+  }
+
   bool Cancelled() const { return cancelled_ && cancelled_(); }
 
-  // The time of the first step.
+  // The time of the first step: drag is so many times the stiffness that each contact alone decides on its state.
   double FirstTime(const Resistance& resistance) const {
     double largest = 0.0;  // stiffness over drag or mass
     const Eigen::VectorXd& by = resistance.HasMass() ? resistance.mass : resistance.drag;
     for (Eigen::Index i = 0; i < by.size(); ++i)
       if (by[i] > 0.0) largest = std::max(largest, diagonal_[i] / by[i]);
-    largest = kFirstDrag * std::max(largest, 1.0);
+    largest = std::max(largest, 1.0) / tolerances::kSmallShare;
     return resistance.HasMass() ? 1.0 / std::sqrt(largest) : 1.0 / largest;
   }
 
@@ -270,59 +243,59 @@ class Jumper {
   struct Motion {
     const Resistance& resistance;
     const Eigen::VectorXd& disturbance;
+    const PathPoint& from;
     double stride;  // largest motion of a step within the extent of the structure
-    PathPoint now;
+    Course course;
     Eigen::VectorXd velocity;
-    WorkAlong work;
-    double time = 0.0;  // of the next step
-    bool pushed = false;
-    int shortened = 0;  // how often the next step was, for its quality
+    double time = 0.0;       // of the next step
+    double pushed = 0.0;     // how far; 0: not yet
+    bool shortened = false;  // the next step was
     // Of the last step, and the largest so far. A push moves the structure from rest to rest.
     double speed = 0.0, most_kinetic = 0.0, fastest = 0.0;
     double growth = 0.0;  // of the speed, from the step before
-    Course course = {};
 
     bool Swings() const { return resistance.HasMass(); }
-    double Nearby() const { return kBack * Largest(disturbance); }
+    double Distance() const { return Largest(course.now.u - from.u); }
     // Swings slow down and speed up; only on its way from the start does a motion that is too long a step look so.
-    bool IsEarly() const { return !Swings() || course.followed < stride; }
+    bool IsEarly() const { return !Swings() || Distance() < stride; }
   };
 
-  Course Follow(const Resistance& resistance, const Eigen::VectorXd& disturbance, double stride) {
-    Motion motion{resistance, disturbance, stride, start_, 0.0 * start_.u, WorkAlong(structure_, contacts_)};
-    const double first = FirstTime(resistance);
-    // A drag below the rounding of the stiffness lets everything come to rest.
-    const double longest = first / tolerances::kUnitComponent, shortest = first * tolerances::kRootOfRounding;
+  Course Move(const Resistance& resistance, const Course& from, const Eigen::VectorXd& disturbance, double stride) {
+    Motion motion{resistance, disturbance, from.now, stride, from, 0.0 * start_.u};
+    const double first = FirstTime(resistance), shortest = first * tolerances::kRootOfRounding,
+                 late = first / tolerances::kDependentColumn;
     motion.time = first;
     Course& course = motion.course;
-    for (int count = 0; count < kMostSteps; ++count) {
+    course.landing.reset();
+    course.rests = false;
+    if (course.left.size() == 0) course.left = disturbance;
+    while (course.steps < 100 * static_cast<int>(kLeastSteps)) {
       course.cancelled = Cancelled();
-      if (course.cancelled) break;
+      if (course.cancelled || course.followed > kFar * extent_ || motion.time < shortest) break;
       const std::optional<MotionStep> step = Try(motion);
       if (!step || IsTooLong(motion, *step)) {
         motion.time *= step ? 0.5 : 0.25;
-        motion.shortened += step ? 1 : 0;
-        if (motion.time < shortest) break;
+        motion.shortened = true;
         continue;
       }
-      const double length = Largest(step->point.u - motion.now.u);
+      const double length = Largest(step->point.u - course.now.u);
       const bool settles = Accept(*step, &motion) && length <= Admitted(motion);
-      const double distance = Largest(motion.now.u - start_.u);
-      if (course.followed > kFar * extent_) break;
-      if (course.left.size() == 0 && distance > motion.Nearby()) course.left = motion.now.u - start_.u;
-      if (settles && distance > motion.Nearby()) course.landing = Land(motion.now, stride, motion.work);
-      if (course.landing) break;
-      course.came_back = motion.time > longest && distance <= motion.Nearby();
-      if (motion.time > longest) break;
+      // A step by which more than half of what is left decays has more behind it than before it.
+      if (settles) Land(motion.Swings() ? stride : length, &course);
+      course.rests =
+          course.landing || (settles && motion.time > late && length <= tolerances::kNextToStart * motion.pushed);
+      course.came_back = course.rests && motion.Distance() <= motion.pushed;
+      if (course.rests) break;
       ChooseTime(*step, length, &motion);
     }
     return course;
   }
 
   std::optional<MotionStep> Try(const Motion& motion) {
-    Eigen::VectorXd anchor = motion.resistance.Anchor(motion.time, motion.now.u, motion.velocity);
-    if (!motion.pushed) anchor += motion.disturbance;
-    return solver_.Solve(motion.now, motion.resistance.Diagonal(motion.time), anchor);
+    const PathPoint& now = motion.course.now;
+    Eigen::VectorXd anchor = motion.resistance.Anchor(motion.time, now.u, motion.velocity);
+    if (motion.pushed == 0.0) anchor += motion.disturbance;
+    return solver_.Solve(now, motion.resistance.Diagonal(motion.time), anchor);
   }
 
   // Largest motion of a step: beyond the structure it grows with the way.
@@ -331,25 +304,29 @@ class Jumper {
   }
 
   bool IsTooLong(const Motion& motion, const MotionStep& step) {
-    if (motion.shortened >= kMostShortenings) return false;
     if (step.determinant_sign * SignOfDrag(step.point) < 0) return true;
-    const Eigen::VectorXd du = step.point.u - motion.now.u;
-    if (Largest(du) > kOverStride * Admitted(motion)) return true;
+    const Eigen::VectorXd du = step.point.u - motion.course.now.u;
+    if (motion.pushed == 0.0) return false;
+    if (Largest(du) > kMostGrowth * Admitted(motion)) return true;
+    // Within so short a step nothing grows: the motion has a kink.
+    if (Largest(du) <= tolerances::kNextToStart * motion.Distance()) return false;
     return motion.IsEarly() && motion.speed > 0.0 && !step.changed &&
-           du.norm() / motion.time > kMostGrowth * motion.speed;
+           du.norm() > kMostGrowth * motion.speed * motion.time + tolerances::kRootOfRounding * extent_;
   }
 
   // Goes to the end of the step. Whether the motion comes to rest, in states that stay.
-  bool Accept(const MotionStep& step, Motion* motion) const {
-    const Eigen::VectorXd du = step.point.u - motion->now.u;
+  bool Accept(const MotionStep& step, Motion* motion) {
+    Course& course = motion->course;
+    const Eigen::VectorXd du = step.point.u - course.now.u;
     const double speed = du.norm() / motion->time;
-    motion->work.Add(motion->now, step);
-    motion->course.length += Largest(du);
-    motion->course.norm += du.norm();
-    motion->now = step.point;
-    motion->course.followed = std::max(motion->course.followed, Largest(step.point.u - start_.u));
-    if (!motion->pushed) {
-      motion->pushed = true;
+    work_.Add(course.now, step, motion->pushed == 0.0, &course.work);
+    ++course.steps;
+    course.length += Largest(du);
+    course.norm += du.norm();
+    course.now = step.point;
+    course.followed = std::max(course.followed, Largest(step.point.u - start_.u));
+    if (motion->pushed == 0.0) {
+      motion->pushed = std::max(Largest(motion->disturbance), Largest(du));
       return false;
     }
     bool settles = kMostGrowth * speed <= motion->speed;
@@ -358,7 +335,8 @@ class Jumper {
       motion->fastest = std::max(motion->fastest, Largest(motion->velocity));
       const double kinetic = 0.5 * speed * speed;
       motion->most_kinetic = std::max(motion->most_kinetic, kinetic);
-      settles = kinetic <= kAtRest * motion->most_kinetic;
+      // What is left does not lift the structure out of a valley any more.
+      settles = kinetic <= tolerances::kEnergyOfStep * motion->most_kinetic;
     }
     motion->growth = motion->speed > 0.0 ? speed / motion->speed : 0.0;
     motion->speed = speed;
@@ -367,36 +345,38 @@ class Jumper {
 
   // The time of the step after this one of the given length.
   void ChooseTime(const MotionStep& step, double length, Motion* motion) const {
-    const bool easy = motion->shortened == 0 && step.iterations <= kEasyIterations && step.rounds <= kEasyRounds;
-    const bool slow = !motion->IsEarly() || motion->growth <= kSlowGrowth;
-    if (easy && slow && length < 0.5 * Admitted(*motion)) motion->time *= 2.0;
+    const bool easy = !motion->shortened && 2 * step.iterations <= kMostCorrections;
+    // A step of twice the length has at most kMostGrowth.
+    const bool slow = !motion->IsEarly() || motion->growth * (kMostGrowth + 1.0) <= 2.0 * kMostGrowth;
+    motion->time *= std::min(easy && slow ? 2.0 : 1.0, length > 0.0 ? Admitted(*motion) / length : 2.0);
     if (motion->fastest > 0.0) motion->time = std::min(motion->time, motion->stride / motion->fastest);
-    motion->shortened = 0;
+    motion->shortened = false;
   }
 
   // The equilibrium at a point where the motion comes to rest: the step of infinite time, with the states that there
-  // are, to a point that is near and that nothing drives away from.
-  std::optional<Landing> Land(const PathPoint& at, double near, WorkAlong work) {
+  // are, to a point that is near.
+  void Land(double near, Course* course) {
+    const PathPoint& at = course->now;
     const std::optional<MotionStep> step = solver_.Solve(at, 0.0 * moved_, at.u);
-    if (!step || step->changed || Largest(step->point.u - at.u) > near) return std::nullopt;
+    if (!step || step->changed || Largest(step->point.u - at.u) > near) return;
     PathPoint from = at;
     from.patches = step->point.patches;
     arc_.SetStates(step->point.states, from);
     const FixedStateSystem& system = arc_.system();
     const Correction correction =
         arc_.Correct(system.Pack(step->point), machine_.Row(system.NumUnknowns()), machine_.value);
-    if (!correction.converged || !InequalitiesHold(correction.x)) return std::nullopt;
+    if (!correction.converged || !InequalitiesHold(correction.x)) return;
     MotionStep last = *step;
     last.point = system.Unpack(correction.x);
-    const int sign = solver_.DeterminantSign(last.point, 0.0 * moved_);
-    if (sign * SignOfDrag(last.point) < 0) return std::nullopt;
-    work.Add(at, last);
+    work_.Add(at, last, false, &course->work);
+    course->now = last.point;
     Landing landing;
     landing.point = last.point;
-    landing.friction = work.friction();
-    landing.loads = work.loads();
+    landing.loads = course->work.loads;
     landing.stored = structure_.Energy(last.point.u) - structure_.Energy(start_.u);
-    return landing;
+    // Drag takes energy: what friction is found to take beyond the rest is the error of its integral.
+    landing.friction = std::min(course->work.friction, std::max(0.0, landing.loads - landing.stored));
+    course->landing = landing;
   }
 
   // Sign of the determinant with so much drag that nothing drives away from the point. A step by implicit Euler from
@@ -404,8 +384,7 @@ class Jumper {
   // taken for decay.
   int SignOfDrag(const PathPoint& point) {
     if (point.states != states_of_sign_) {
-      const double stiff = kFirstDrag / tolerances::kRootOfRounding * std::max(1.0, diagonal_.maxCoeff());
-      sign_ = solver_.DeterminantSign(point, stiff * moved_);
+      sign_ = solver_.DeterminantSign(point, moved_ / FirstTime({0.0 * moved_, moved_}));
       states_of_sign_ = point.states;
     }
     return sign_;
@@ -420,9 +399,12 @@ class Jumper {
 
   const Structure& structure_;
   const ContactPairs& contacts_;
+  const double compliance_;  // of the machine
   const MachineEquation machine_;
   MotionStepSolver solver_;
   ContactArc arc_;
+  StabilityProblem stability_;
+  WorkOfMotion work_;
   const PathPoint start_;
   const double extent_;
   const Eigen::VectorXd diagonal_;  // of the stiffness at the start
