@@ -130,8 +130,7 @@ void Crossing::NameCurves(const Eigen::VectorXd& tangent) {
   if (component(along) < 0.0) along.first = -along.first;
   for (CurveDerivatives& curve : across) Orient(tangent.size(), &curve.first);
 }
-
-bool Crossing::IsPerfect() const { return std::abs(unfolding) <= error; }
+bool Crossing::IsPerfect() const { return std::abs(unfolding) <= tolerances::kMargin * error; }
 
 std::optional<Crossing> FindCrossing(ArcEquations* equations, const Eigen::VectorXd& guess,
                                      const Eigen::VectorXd& tangent, Eigen::Index k) {

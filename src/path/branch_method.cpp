@@ -385,8 +385,9 @@ Advance BranchMethod::Next(const PathPoint& from) {
 }
 
 Causes BranchMethod::Remarks() const {
-  if (!departure_.other_reactions()) return {};
-  return {{sentences::kOtherReactions}};
+  Causes remarks = departure_.AtEnds();
+  if (departure_.other_reactions()) remarks.push_back({sentences::kOtherReactions});
+  return remarks;
 }
 
 End BranchMethod::NoStep(const PathPoint& from) {
