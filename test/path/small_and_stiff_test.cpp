@@ -218,7 +218,7 @@ TEST(SmallAndStiff, SymmetricPartsStaySymmetric) {
           "  surfaces:\n  - {name: under, nodes: [w, \"wall/3\", \"wall/2\", \"wall/1\", v]}\n"
           "  groups:\n  - {name: g, nodes: [",
           names, "]}\n  contacts:\n  - {group: g, surface: under}\n  loads:\n  - {node: \"c/", segments / 2,
-          "\", fy: 0.001, constant: true}\nprogram:\n- {support_motions: [{node: b, dx: -1.0}], target: ", 120.0 / EA,
+          "\", fy: 0.001, constant: true}\nprogram:\n- {support_motions: [{node: a, dx: 0.5}, {node: b, dx: -0.5}], target: ", 120.0 / EA,
           "}\noptions: {max_increments: 2000}\n"));
       bool crossed = false;
       for (const Increment& increment : path.increments) {
