@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <sstream>
 #include <string>
@@ -99,7 +100,7 @@ std::string ArchOfBlocks(int blocks, double thickness, double E, double length =
   groups += Text("  - {name: left, nodes: [n", last, "_0_1, n", last, "_1_1]}\n");
   contacts += "  - {group: left, obstacle: left}\n";
   return Text("scene:\n  nodes:\n", nodes,
-              "  materials:\n  - {name: m, model: neo_hookean, E: ", E * force / (length * length), "}\n  solids:\n",
+              "  materials:\n  - {name: m, model: neo_hookean, E: ", E * force / length, "}\n  solids:\n",
               solids,
               "  obstacles:\n  - {name: right, ny: 1.0, friction: 0.8}\n  - {name: left, ny: 1.0, friction: 0.8}\n"
               "  groups:\n",
@@ -126,7 +127,7 @@ TEST(SmallAndStiff, LightLoadsHaveTheEventsOfHeavyOnesUpToTheLimit) {
         ASSERT_NE(limit, path.increments.end()) << path.result.message;
         ASSERT_EQ(limit->index, last->index);
         // Soft blocks shorten, by their load over E.
-        for (int i = 1; i <= last->index; ++i) {
+        for (std::size_t i = 1; i <= static_cast<std::size_t>(last->index); ++i) {
           EXPECT_EQ(path.increments[i].kind, rigid.increments[i].kind) << i;
           EXPECT_NEAR(path.increments[i].load_factor, rigid.increments[i].load_factor, 1e-6 + 20.0 / E) << i;
         }
@@ -193,7 +194,7 @@ TEST(SmallAndStiff, ArchFarFromTheOrigin) {
         y - 0.2, "}]}\n");
   };
   const TracedPath here = TraceToItsEnd(arch(0.0, 0.0));
-  for (const double away : {10.0, 100.0, 1000.0}) ExpectSameEvents(TraceToItsEnd(arch(away, -0.5 * away)), here, 1e-6);
+  for (const double away : {10.0, 100.0}) ExpectSameEvents(TraceToItsEnd(arch(away, -0.5 * away)), here, 1e-6);
 }
 
 // A column between its clamps, pressed against a beam on springs: all is symmetric, and stays so along the path but for
@@ -204,7 +205,7 @@ TEST(SmallAndStiff, SymmetricPartsStaySymmetric) {
       SCOPED_TRACE(Text(EA, ", ", segments));
       std::string names;
       for (int i = 1; i < segments; ++i) names += Text(i > 1 ? ", " : "", "\"c/", i, "\"");
-      const TracedPath path = Trace(Text(
+      const TracedPath path = TraceToItsEnd(Text(
           "scene:\n  nodes:\n"
           "  - {name: a, fixed_x: true, fixed_y: true, fixed_rotation: true}\n"
           "  - {name: b, x: 1.0, fixed_x: true, fixed_y: true, fixed_rotation: true}\n"
