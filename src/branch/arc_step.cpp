@@ -40,6 +40,22 @@ void DropRoundedSeconds(Step* step) {
   end.second = (second - end.first.head(n).dot(second.head(n)) * end.first) / (speed * speed);
 }
 
+// Of a prediction at `length` from the start: a reaction's counts against its change along the step, where that is the
+// larger one. What is pushed along a stiff axis has reactions that change by far more than the motion.
+double ErrorOfPrediction(const ArcEquations& equations, const CurvePoint& start, double length,
+                         const Eigen::VectorXd& step) {
+  const Eigen::Index reactions = step.size() - equations.NumMotion();
+  Eigen::VectorXd error = equations.Counted(step);
+  error.tail(reactions).array() /=
+      equations.Counted(start.first)
+          .tail(reactions)
+          .array()
+          .abs()
+          .max(0.5 * length * equations.Counted(start.second).tail(reactions).array().abs())
+          .max(1.0);
+  return error.norm();
+}
+
 double Chord(const Step& step) { return (step.end.x - step.start.x).head(step.normal.size()).norm(); }
 
 // Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
@@ -79,10 +95,13 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
       arc->equations().ResidualUnit() * std::max(tolerances::kNoMove, tolerances::kLastDigits * start.x.norm());
   const Eigen::VectorXd straight = start.x + length * start.first;
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
+  const auto error_of = [&](const Correction& correction) {
+    return ErrorOfPrediction(arc->equations(), start, length, correction.first_step);
+  };
   const auto good = [&](const Correction& correction) {
     if (!correction.converged) return false;
     const double noise = tolerances::kMargin * std::min(correction.steps.back(), tolerances::kStagnation);
-    return correction.first_step <= tolerance + std::max(rounding, std::min(noise, kCoarsePrediction * length));
+    return error_of(correction) <= tolerance + std::max(rounding, std::min(noise, kCoarsePrediction * length));
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
@@ -91,7 +110,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
     trial->length = length;
     trial->numbers = {{"newton_iterations", correction.iterations},
                       {"contraction", correction.contraction},
-                      {"predictor_error", correction.first_step / length},
+                      {"predictor_error", error_of(correction) / length},
                       {"largest_predictor_error", prediction}};
     trial->verdict = correction.converged ? "predictor error" : "Newton's method does not converge";
   }

@@ -130,8 +130,8 @@ void Crossing::NameCurves(const Eigen::VectorXd& tangent) {
   if (component(along) < 0.0) along.first = -along.first;
   for (CurveDerivatives& curve : across) Orient(tangent.size(), &curve.first);
 }
-
-bool Crossing::IsPerfect() const { return std::abs(unfolding) <= error; }
+// Both F at x and the points of the path have rounding of that size.
+bool Crossing::IsPerfect() const { return std::abs(unfolding) <= 2.0 * error; }
 
 std::optional<Crossing> FindCrossing(ArcEquations* equations, const Eigen::VectorXd& guess,
                                      const Eigen::VectorXd& tangent, Eigen::Index k) {

@@ -27,6 +27,14 @@ Quintic FunctionOf(const ArcEquations& equations, const Step& step, const Constr
   return equations.IsOfRate(constraint) ? Derivative(value) : value;
 }
 
+// The rounding of a rate of slip. Among stiff parts its bound is by far larger than the error that is computed.
+double ErrorOfSlip(SmoothArc* arc, const Step& step, const Constraint& slip, const Quintic& rate) {
+  const double bound = tolerances::kRate * arc->equations().ResidualUnit();
+  if (bound <= tolerances::kRate || !FirstNegative(rate, step.length, tolerances::kRate)) return bound;
+  const double error = arc->ErrorOfRate(arc->equations().Gradient(slip, step.end.x), step.end);
+  return std::clamp(tolerances::kMargin * error, tolerances::kRate, bound);
+}
+
 // By how much the cubic interpolation of the same ends differs from the quintic at the middle.
 double CubicDifference(const Quintic& quintic, double length) {
   const Quintic derivative = Derivative(quintic);
@@ -285,6 +293,10 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   };
   StepEvent too_long;
   too_long.too_long = true;
+  const Quintic load_factor =
+      step.InterpolateLinear([s = arc->LoadFactor()](const Eigen::VectorXd& x) { return x[s]; });
+  std::optional<double> target;
+  if (ends.load_factor) target = FirstAt(load_factor, *ends.load_factor, step.length);
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Constraint> open_ends;
   const std::vector<Constraint> inequalities = equations.LimitsInReach(step.start.x, kReach * step.length, &open_ends);
@@ -296,31 +308,30 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   for (const Constraint& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
     const double zero =
-        equations.IsOfRate(constraint) ? tolerances::kRate * equations.ResidualUnit() : arc->RoundingOf(constraint);
+        equations.IsOfRate(constraint) ? ErrorOfSlip(arc, step, constraint, quintic) : arc->RoundingOf(constraint);
+    double where = 0.0;
+    // A margin that is zero where the step begins, and within its error up to the end, is no event.
+    if (std::abs(quintic[0]) <= zero && Minimum(quintic, target.value_or(step.length), &where) >= -zero) continue;
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider({*t, constraint});
       continue;
     }
-    double where = 0.0;
     const double smallest = Minimum(quintic, step.length, &where);
     const bool inside =
         where > tolerances::kNextToStart * step.length && where < (1.0 - tolerances::kNextToStart) * step.length;
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
       consider(near_at(where));
   }
-  const Quintic load_factor =
-      step.InterpolateLinear([s = arc->LoadFactor()](const Eigen::VectorXd& x) { return x[s]; });
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider({*t, {}, true});
   if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, ends, &first)) return too_long;
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.Kind() == EventKind::kNone && equations.BeyondReach(step.end.x)) return too_long;
   // Whatever lies behind the target, however near, is not of this path.
   FindSample(step, ends.functions, &first);
-  if (ends.load_factor)
-    if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t) {
-      first = StepEvent{*t};
-      first.target = true;
-    }
+  if (target && *target <= first.t) {
+    first = StepEvent{*target};
+    first.target = true;
+  }
   return first;
 }
 
@@ -408,7 +419,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
     std::optional<CurvePoint> lowest = LocateRate(arc, step, event.t, along, gradient);
-    if (lowest) return lowest;
+    if (lowest && along(*lowest).second > 0.0) return lowest;
     correction = arc->CorrectOnPlane(guess, step.normal);
   }
   if (!correction.converged) return std::nullopt;

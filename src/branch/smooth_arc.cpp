@@ -156,12 +156,14 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   limits.unit = equations_.ResidualUnit();
   if (at_hand) limits.stagnation = tolerances::kUnitComponent;
   if (at_hand) limits.slowest = kSlow;
-  NewtonCourse course = NewtonLoop(
-      limits, !at_hand, next, [this](const Eigen::VectorXd& step) { return equations_.Norm(step); }, &result.x, &step_);
+  const auto norm = [&](const Eigen::VectorXd& step) {
+    if (result.first_step.size() == 0) result.first_step = step;
+    return equations_.Norm(step);
+  };
+  NewtonCourse course = NewtonLoop(limits, !at_hand, next, norm, &result.x, &step_);
   result.iterations = course.iterations;
   result.steps = std::move(course.steps);
-  if (!result.steps.empty()) result.first_step = result.steps[0];
-  if (result.steps.size() > 1) result.contraction = result.steps[1] / result.first_step;
+  if (result.steps.size() > 1) result.contraction = result.steps[1] / result.steps[0];
   if (!course.at_rounding) return result;
   LowerResidual(row, value, &result.x);
   equations_.Residual(result.x, &residual_);

@@ -75,12 +75,14 @@ struct ResidualCheck::Prepared {
       start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
     }
     elements = check::MakeElements(scene, index, configuration.reference);
+    // Coordinates are rounded relative to their size.
+    Real size = scaling.length;
+    for (const double coordinate : configuration.start) size = std::max<Real>(size, std::abs(coordinate));
     std::vector<Real> stiffness(scene.nodes.size(), 0.0L);
     for (const auto& element : elements)
       for (const std::size_t node : element->Nodes()) stiffness[node] += element->Stiffness();
     for (const Real at_node : stiffness) largest_stiffness = std::max(largest_stiffness, at_node);
-    for (const Real at_node : stiffness)
-      units.push_back(std::max<Real>(scaling.force, kStiffForce * at_node * scaling.length));
+    for (const Real at_node : stiffness) units.push_back(std::max<Real>(scaling.force, kStiffForce * at_node * size));
     // Summed by node, so that what cancels does so before the load factor makes it large.
     std::map<std::pair<std::size_t, bool>, std::size_t> sums;
     for (const Load& load : scene.loads) {

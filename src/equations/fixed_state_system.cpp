@@ -361,8 +361,7 @@ bool FixedStateSystem::Hold(const Eigen::VectorXd& x, const Eigen::VectorXd& res
          motions.lpNorm<Eigen::Infinity>() <= tolerances::kResidual * place;
 }
 
-double FixedStateSystem::Norm(const Eigen::VectorXd& change) const {
-  if (structure_.ObliqueSupports().empty()) return change.norm();
+Eigen::VectorXd FixedStateSystem::Counted(const Eigen::VectorXd& change) const {
   Eigen::VectorXd counted = change;
   for (const std::size_t k : structure_.ObliqueSupports()) {
     const Eigen::Vector2d motion(structure_.PrescribedDofs()[k].rate, structure_.PrescribedDofs()[k + 1].rate);
@@ -370,7 +369,7 @@ double FixedStateSystem::Norm(const Eigen::VectorXd& change) const {
     const double along = motion.normalized().dot(force);
     counted.segment<2>(first_support_ + static_cast<Eigen::Index>(k)) << along, 0.0;
   }
-  return counted.norm();
+  return counted;
 }
 
 const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Eigen::VectorXd& x) {

@@ -174,7 +174,9 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
   RowSpace together(count);
   for (Eigen::Index equation = 0; equation < transposed.cols(); ++equation) {
     Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(count), size = sum;
+    double largest = 0.0;
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it && it.row() < dofs; ++it) {
+      largest = std::max(largest, std::abs(it.value()));
       const int p = part_of[static_cast<std::size_t>(it.row())];
       if (p < 0) continue;
       const Eigen::MatrixXd& modes = free[static_cast<std::size_t>(p)];
@@ -185,7 +187,8 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
       // Parts of a motion cancel where it is a rotation.
       size.segment(at, modes.cols()) += std::abs(it.value()) * (motion.row(it.row()).cwiseAbs() * modes.cwiseAbs());
     }
-    if (size.isZero(0.0)) continue;
+    // What is not free may have the rest of the equation, as across a boundary along which a part moves.
+    if (size.maxCoeff() <= tolerances::kDependentColumn * largest) continue;
     const Eigen::RowVectorXd row = row_of(sum, size);
     if (!row.isZero(0.0)) together.Add(row);
   }

@@ -129,12 +129,15 @@ bool BorderedSolver::FactorizeHeld(const Eigen::SparseMatrix<double>& transposed
   factors_->held = transposed;
   // One unknown for each mode, so that none of their combinations moves without moving one of these.
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> places(modes.transpose());
+  const double rounding =
+      tolerances::kDependentColumn *
+      Eigen::Map<const Eigen::VectorXd>(transposed.valuePtr(), transposed.nonZeros()).lpNorm<Eigen::Infinity>();
   for (Eigen::Index k = 0; k < modes.cols(); ++k) {
     const Eigen::Index place = places.colsPermutation().indices()[k];
     double stiffness = 0.0;
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, place); it; ++it)
       stiffness = std::max(stiffness, std::abs(it.value()));
-    factors_->held.coeffRef(place, place) += stiffness > 0.0 ? stiffness : 1.0;
+    factors_->held.coeffRef(place, place) += stiffness > rounding ? stiffness : 1.0;
   }
   if (!FactorizeRegular(factors_->held, row, tolerances::kSingularPivot, frame)) return false;
   *tangent = Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
@@ -29,11 +31,16 @@ void LinearisedEquations::Evaluate(const Eigen::VectorXd& tangent, Eigen::Vector
 
 bool LinearisedEquations::Hold(const Eigen::VectorXd& tangent, double share) const {
   const double size = tangent.lpNorm<Eigen::Infinity>();
+  // By unknown, the largest entry of any equation: one that is nothing but rounding has no measure of its own.
+  Eigen::VectorXd around = Eigen::VectorXd::Zero(transposed_.rows());
+  for (Eigen::Index equation = 0; equation < transposed_.cols(); ++equation)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed_, equation); it; ++it)
+      around[it.row()] = std::max(around[it.row()], std::abs(it.value()));
   for (Eigen::Index equation = 0; equation < transposed_.cols(); ++equation) {
     double sum = 0.0, largest = 0.0;
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed_, equation); it; ++it) {
       sum += it.value() * tangent[it.row()];
-      largest = std::max(largest, std::abs(it.value()));
+      largest = std::max({largest, std::abs(it.value()), tolerances::kFadingEquation * around[it.row()]});
     }
     if (!(std::abs(sum) <= share * largest * size)) return false;
   }

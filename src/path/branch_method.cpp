@@ -394,7 +394,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
 }
 
 Causes BranchMethod::Remarks() const {
-  Causes remarks;
+  Causes remarks = departure_.AtEnds();
   if (turned_back_ > 0) remarks.push_back({sentences::kNoneGoesOn, {}, turned_back_});
   if (departure_.other_reactions()) remarks.push_back({sentences::kOtherReactions});
   return remarks;

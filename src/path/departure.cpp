@@ -103,8 +103,10 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
   if (on.branches.empty()) {
     End end{EndReason::kPathEnd, {NoBranch(on)}};
     Append(StandsAtEnd(model_, point), &end.causes);
+    at_ends_.clear();
     return end;
   }
+  if (at_ends_.empty()) at_ends_ = StandsAtEnd(model_, point);
   End end;
   const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, 0, &end);
   if (!taken) return end;

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kListed = 3;  // in a message
 constexpr double kDeep = 1e-3;      // of the characteristic length: what is not as deep in an obstacle is not told
-constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
+constexpr double kNearlyIncompressible = 0.48;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {
   const std::string& name = scene.solids[i].name;

@@ -238,18 +238,22 @@ ObstaclePlace PlaceOf(const TraceRequest& request, const Obstacle& obstacle, std
 Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
   Scaling largest = CharacteristicScales(StageScene(request, index, 0), index);
   if (request.program.empty()) return largest;
-  if (HasForceScale(request.scene)) {
-    if (!request.scene.bars.empty() || !request.scene.solids.empty()) return largest;
-    for (const Stage& stage : request.program)
-      largest.force = std::max(largest.force, kShareOfLoads * SumOfLoads(stage, request.scene, index, largest.length));
-    return largest;
-  }
+  const bool of_elements = HasForceScale(request.scene);
   largest.force = 0.0;
   for (const Stage& stage : request.program) {
     if (stage.unload) continue;  // brings no force on
-    const Scaling scaling = CharacteristicScales(LoadedAtTarget(stage, request.scene), index);
+    Scene loaded = LoadedAtTarget(stage, request.scene);
+    if (of_elements) {
+      // What has a target is as sure to come as what is constant.
+      for (Load& load : loaded.loads) load.constant = true;
+      loaded.loads.insert(loaded.loads.end(), request.scene.loads.begin(), request.scene.loads.end());
+    }
+    const Scaling scaling = CharacteristicScales(loaded, index);
     if (scaling.force > largest.force) largest = scaling;
   }
+  if (!of_elements || !request.scene.bars.empty() || !request.scene.solids.empty()) return largest;
+  for (const Stage& stage : request.program)
+    largest.force = std::max(largest.force, kShareOfLoads * SumOfLoads(stage, request.scene, index, largest.length));
   return largest;
 }
 

@@ -29,6 +29,11 @@ namespace {
 // the scene.
 constexpr double kFarthestContact = 1e4;
 
+// F of stiff parts, of their loads at most.
+constexpr double kLightest = 1e4;
+// Norm of the constant loads, of that of the others: a smaller one disturbs, and tells no forces.
+constexpr double kWeight = 0.1;
+
 // Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
 double OrderedSum(std::vector<double> terms) {
   std::sort(terms.begin(), terms.end());
@@ -267,6 +272,15 @@ double MotionByLoads(const Scene& scene, const SceneIndex& index, double force_n
   return farthest;
 }
 
+// The force in which the loads of a scene of stiff parts are large enough to be told from rounding [force]. Infinite
+// where the loads do not tell its forces: what moves, or parts that are stressed from the start, make others.
+double ForceForLoads(const Scene& scene, const SceneIndex& index, double length) {
+  const bool stressed =
+      std::any_of(scene.bars.begin(), scene.bars.end(), [](const Bar& bar) { return bar.rest_length > 0.0; });
+  if (stressed || MotionNorm(scene) > 0.0) return std::numeric_limits<double>::infinity();
+  return kLightest * std::max(LoadNorm(scene, index, true, length), LoadNorm(scene, index, false, length));
+}
+
 // Smallest gap of a contact candidate at the start that is not rounding of a touching one, 0 if there is none [length].
 double NearestGap(const Scene& scene, const SceneIndex& index) {
   std::vector<double> gaps;
@@ -305,6 +319,9 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;
   if (HasForceScale(scene)) {
     scaling = ScalesOfElements(scene, index);
+    const double constant = LoadNorm(scene, index, true, scaling.length);
+    if (constant > 0.0 && constant >= kWeight * LoadNorm(scene, index, false, scaling.length))
+      scaling.force = std::min(scaling.force, ForceForLoads(scene, index, scaling.length));
   } else {
     const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
     scaling.force = std::max({reference_load, stiffness * MotionNorm(scene), LoadNorm(scene, index, true),

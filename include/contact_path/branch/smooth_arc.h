@@ -18,9 +18,9 @@ struct Correction {
   bool converged = false;
   Eigen::VectorXd x;
   int iterations = 0;
-  double first_step = 0.0;    // norm of the first Newton step: the error of the guess
-  double contraction = 0.0;   // ratio of the second step to the first
-  std::vector<double> steps;  // norms of all Newton steps
+  Eigen::VectorXd first_step;  // of Newton's method: the error of the guess
+  double contraction = 0.0;    // ratio of the second step to the first
+  std::vector<double> steps;   // norms of all Newton steps
 };
 
 class SmoothArc {

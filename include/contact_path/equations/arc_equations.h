@@ -53,7 +53,9 @@ class ArcEquations {
 
   // Errors of points grow with it.
   virtual double ResidualUnit() const { return 1.0; }
-  virtual double Norm(const Eigen::VectorXd& change) const { return change.norm(); }
+  // A change of the unknowns with zeros in place of what depends on the axes alone, and the norm of that.
+  virtual Eigen::VectorXd Counted(const Eigen::VectorXd& change) const { return change; }
+  double Norm(const Eigen::VectorXd& change) const { return Counted(change).norm(); }
   // Whether F at x is rounding.
   virtual bool Hold(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const = 0;
   // For BorderedSolver; null: none.

@@ -63,9 +63,9 @@ class FixedStateSystem : public ArcEquations {
   bool Hold(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const override;
   // The largest of Structure::ResidualUnits().
   double ResidualUnit() const override { return residual_unit_; }
-  // Norm of a change of the unknowns. Of the force on a moved support the component along its motion counts: whether
-  // the component across it is an unknown depends on the axes.
-  double Norm(const Eigen::VectorXd& change) const override;
+  // Of the force on a moved support the component along its motion counts: whether the component across it is an
+  // unknown depends on the axes.
+  Eigen::VectorXd Counted(const Eigen::VectorXd& change) const override;
   // The pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x) override;
   bool Mixed() const override { return structure_.Mixed(); }

@@ -63,6 +63,8 @@ class Departure {
   bool turned_back() const { return turned_back_; }
   // Whether a branch that was taken could have other reactions.
   bool other_reactions() const { return other_reactions_; }
+  // StandsAtEnd() of the first start or event at which a contact did, and the path went on; else empty.
+  const Causes& AtEnds() const { return at_ends_; }
 
  private:
   bool SetOut(const PathPoint& point, const Branch& branch, ContactArc* arc, CurvePoint* current) const;
@@ -74,6 +76,7 @@ class Departure {
   std::optional<PathPoint> begin_;
   std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
   bool other_reactions_ = false, turned_back_ = false;
+  Causes at_ends_;
   LargestReactionSoFar own_;  // where the options have none
   LargestReactionSoFar* const largest_reaction_;
 };

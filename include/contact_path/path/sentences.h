@@ -110,7 +110,7 @@ inline constexpr Sentence kCollapsedBar = "bar <name> has shrunk to <value> of i
 inline constexpr Sentence kInvertedElement =
     "element <name> turns inside out: its area has shrunk to <value> of the initial one";
 inline constexpr Sentence kLockingSolids =
-    "<name>: elements of 3 or 4 nodes are far too stiff in plane strain where nu is beyond 0.49; take 8 nodes";
+    "<name>: elements of 3 or 4 nodes are far too stiff in plane strain where nu is beyond 0.48; take 8 nodes";
 inline constexpr Sentence kSlenderBeam =
     "EA L^2 / EI of beam <name> is <value>: rounding of its axial force hides its bending; where it hardly stretches, "
     "EA with 1e7 gives nearly the path";
