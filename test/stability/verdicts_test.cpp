@@ -40,6 +40,7 @@ TraceRequest LatticeOnFloor(unsigned seed) {
     for (int j = 0; j < rows; ++j)
       for (const auto& [right, up] : {std::pair(1, 0), std::pair(0, 1), std::pair(1, 1), std::pair(1, -1)}) {
         if (i + right > feet || j + up < 0 || j + up >= rows) continue;
+        if (j == 0 && right == 0 && random.Number(0.0, 1.0) < 0.7) continue;  // such a foot stands on oblique bars
         Bar bar;
         bar.nodes = {NameAt(i, j), NameAt(i + right, j + up)};
         bar.EA = std::pow(10.0, random.Number(-0.5, 0.5)) * (up != 0 && right != 0 ? slender : 1.0);
@@ -48,9 +49,9 @@ TraceRequest LatticeOnFloor(unsigned seed) {
   Obstacle floor;
   floor.name = "floor";
   floor.ny = 1.0;
-  floor.friction = seed % 7 == 0 ? 0.0 : random.Number(0.1, 1.5);
+  floor.friction = seed % 7 == 0 ? 0.0 : random.Number(0.1, 3.0);
   scene.obstacles = {floor};
-  const double aside = random.Number(-1.0, 1.0);
+  const double aside = random.Number(-3.0, 3.0);
   for (int i = 1; i <= feet; ++i) {
     ContactCandidate contact;
     contact.node = NameAt(i, 0);
@@ -177,12 +178,10 @@ TEST(Verdicts, AgainstDenseMatrices) {
     }
   }
   EXPECT_GT(without, AtLeast(1000));
-  EXPECT_GT(unstable, AtLeast(100));
+  EXPECT_GT(unstable, AtLeast(40));
   EXPECT_GT(stable, AtLeast(1000));
   EXPECT_GT(lost, AtLeast(20));
-  EXPECT_GE(most_slips, 8);
-  std::cerr << without << " " << unstable << " " << stable << " " << lost << " " << not_proved << " " << most_slips
-            << "\n";
+  EXPECT_GE(most_slips, 6);
 }
 
 }  // namespace

@@ -301,6 +301,24 @@ TEST(VerifyPath, ProvesJumps) {
   }
 }
 
+// 117 components.
+TEST(VerifyPath, FindsVerdictsOfFramesAnew) {
+  TracedPath path = TraceIncrements(ReadExample("lee_frame"));
+  const Verification verification = VerifyPath(path.request, path.increments);
+  EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
+  EXPECT_GT(verification.proved_verdicts, 100);
+  const auto recorded = std::count_if(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
+    return increment.stability.stability != Verdict::kNotProved;
+  });
+  EXPECT_EQ(verification.proved_verdicts + verification.open_verdicts, recorded);
+  for (Increment& increment : path.increments) {
+    Verdict& verdict = increment.stability.stability;
+    verdict = verdict == Verdict::kStable ? Verdict::kUnstable : Verdict::kStable;
+  }
+  const Verification tampered = VerifyPath(path.request, path.increments);
+  EXPECT_NE(Listed(tampered).find("is recorded as"), std::string::npos);
+}
+
 // Under dead loads, a machine, and with friction on the way.
 TEST(VerifyPath, ProvesJumpsThatWereTraced) {
   for (const char* const scene : {"von_mises", "two_dof_friction", "rough_truss", "snap_hook", "williams_toggle"})
