@@ -178,7 +178,7 @@ TEST(JumpLandings, OfEulersColumnWhateverItsAxialStiffness) {
 
 TEST(JumpLandings, AreStableWhereAllOfEqualPartsBuckle) {
   for (int columns = 1; columns <= 8; ++columns) {
-    TraceRequest request = Jumping(0.0, 300);
+    TraceRequest request = Jumping(0.0, 1500);
     Scene& scene = request.scene;
     scene.name = "columns";
     for (int i = 0; i < columns; ++i) {
@@ -264,7 +264,7 @@ TEST(JumpLandings, FrictionOfASlideBehindTheClosingOfAContact) {
       mean += (force - from.s * model.structure.ReferenceLoad()).dot(Eigen::Vector2d(0.6, 0.8)) / kPoints;
     }
     const double exact = friction * mean * way.norm();
-    EXPECT_NEAR(jump.landing->friction, exact, 1e-6 * exact) << friction;
+    EXPECT_NEAR(jump.landing->friction, exact, 1e-5 * exact) << friction;  // the rule, where the force is not constant
   }
 }
 
