@@ -273,6 +273,11 @@ class Jumper {
       course.cancelled = Cancelled();
       if (course.cancelled || course.followed > kFar * extent_ || motion.time < shortest) break;
       const std::optional<MotionStep> step = Try(motion);
+      // Where the equations become singular, no step is found that is not rounding.
+      course.rests = !step && motion.time > tolerances::kSmallShare * late &&
+                     motion.speed * motion.time <= tolerances::kNextToStart * motion.pushed;
+      course.came_back = course.rests && motion.Distance() <= motion.pushed;
+      if (course.rests) break;
       if (!step || IsTooLong(motion, *step)) {
         motion.time *= step ? 0.5 : 0.25;
         motion.shortened = true;

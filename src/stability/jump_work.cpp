@@ -9,7 +9,7 @@ namespace contact_path {
 void WorkOfMotion::Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work) {
   bool impact = pushed;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    impact = impact || step.closed_after[i] > 0.0 ||
+    impact = impact || step.closed_after[i] != 0.0 ||
              (from.states[i] != ContactState::kOpen && from.Patch(i) != step.point.Patch(i));
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (contacts_[i]->Frictional()) work->friction += OfContact(i, from, step, impact, work);
@@ -30,20 +30,24 @@ double WorkOfMotion::OfContact(std::size_t i, const PathPoint& from, const Motio
   const bool known = from.states[i] != ContactState::kOpen && !work->after_impact;  // the force at the start
   const double owed = std::exchange(work->owed[i], 0.0), before = pair.Friction() * from.rn[k];
   if (Slips(to.states[i])) {
-    const double length = std::abs(slip()) * (1.0 - step.closed_after[i]), after = pair.Friction() * to.rn[k];
+    const double length = std::abs(slip() * (1.0 - step.closed_after[i])), after = pair.Friction() * to.rn[k];
     if (impact && from.states[i] == ContactState::kOpen) {
       work->owed[i] = length;
       return 0.0;
     }
     if (impact) return (known ? std::min(before, after) : after) * (length + owed);
-    work->slopes[i] = length > 0.0 && known ? (before - after) / length : 0.0;
-    return 0.5 * ((known ? before : after) + after) * length + after * owed;
+    if (!known) {
+      work->owed[i] = length + owed;
+      return after * (length + owed);
+    }
+    const double slope = work->slopes[i] = length > 0.0 ? (before - after) / length : 0.0;
+    return 0.5 * (before + after) * length + 0.5 * slope * owed * owed;
   }
   const double force = pair.Friction() * (to.states[i] == ContactState::kOpen ? from : to).rn[k];
-  if (to.states[i] != ContactState::kOpen || !Slips(from.states[i])) return force * owed;
+  if (to.states[i] != ContactState::kOpen || !Slips(from.states[i])) return 0.0;
   // It slides until nothing presses it: as far as its force falls on as it has fallen.
   const double length = std::abs(slip());
-  return 0.5 * force * (work->slopes[i] > 0.0 ? std::min(length, force / work->slopes[i]) : length) + force * owed;
+  return 0.5 * force * (work->slopes[i] > 0.0 ? std::min(length, force / work->slopes[i]) : length);
 }
 
 double WorkOfMotion::DrivingForce(const PathPoint& at) {

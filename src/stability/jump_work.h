@@ -19,8 +19,8 @@ struct Work {
 
   double friction = 0.0, loads = 0.0;
   std::vector<double> slopes;  // by candidate: how its friction force has fallen with its slip
-  // By candidate: slip in the step in which it has closed. Drag makes reactions of an impact there, and those behind it
-  // are the reactions of the next step.
+  // By candidate: slip since it has closed, or another has, for which the force at its end alone is known, or none.
+  // Drag makes reactions of an impact there; the line through those behind it leads back.
   std::vector<double> owed;
   bool after_impact = false;
 };

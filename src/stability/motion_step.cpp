@@ -63,6 +63,13 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
       step.point = system_.Unpack(x);
       step.determinant_sign = solver_.DeterminantSign();
       step.changed = step.point.states != from.states;
+      for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        if (step.closed_after[i] == 0.0 || contacts_[i]->HasTotalLaw()) continue;
+        const int patch = step.point.Patch(i);
+        const double start = contacts_[i]->Xi(from.u, from.s, patch),
+                     way = contacts_[i]->Xi(step.point.u, step.point.s, patch) - start;
+        if (way != 0.0) step.closed_after[i] = (references[static_cast<Eigen::Index>(i)] - start) / way;
+      }
       return step;
     }
     const bool again = !tried.emplace(trial.states, trial.patches).second;

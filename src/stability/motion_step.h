@@ -34,7 +34,7 @@ struct MotionStep {
   int rounds = 0;            // of the active set
   bool changed = false;      // other states than at the start
   int determinant_sign = 0;  // of the equations of the step; 0 where they are singular
-  // By candidate: the share of the step after which it touches, where it closes; else 0.
+  // By candidate: the share of its tangential motion after which it touches, where it closes; else 0.
   std::vector<double> closed_after;
 };
 
