@@ -11,9 +11,8 @@ namespace {
 
 constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
 constexpr int kLocatingAttempts = 6;
-constexpr double kRounded = 10.0;     // turn along a step by a second derivative that is rounding
-constexpr double kLongestArc = 1.05;  // of its chord
-constexpr double kOffCurve = 0.7;     // cosine between a chord and its tangent: of a located end, less exact
+constexpr double kRounded = 10.0;  // turn along a step by a second derivative that is rounding
+constexpr double kOffCurve = 0.7;  // cosine between a chord and its tangent: of a located end, less exact
 
 // What rounding does not leave of a point, the start of its step tells: the sign of a matrix that is singular to
 // rounding at a regular point, and the sense of a load that hardly changes.
@@ -63,13 +62,6 @@ double Chord(const Step& step) { return (step.end.x - step.start.x).head(step.no
 bool EndsBeside(const Step& step, double cosine) {
   const double chord = Chord(step);
   return chord > tolerances::kSameDirection && step.length < cosine * chord;
-}
-
-// Whether the curve of the step is longer than an arc over its chord that turns by 60 degrees: its second derivatives
-// belong to a sharper turn than the step can show.
-bool Winds(const Step& step) {
-  const double chord = Chord(step);
-  return chord > tolerances::kSameDirection && step.ArcLength() > kLongestArc * chord;
 }
 
 std::string_view NameOf(EventKind kind) {
@@ -162,12 +154,6 @@ bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint
   return false;
 }
 
-bool IsSame(const StepEvent& one, const StepEvent& other) {
-  if (one.Kind() != other.Kind() || !(one.fails == other.fails) || one.sample.has_value() != other.sample.has_value())
-    return false;
-  return !one.sample || (one.sample->target == other.sample->target && one.sample->value == other.sample->value);
-}
-
 // Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate
 // touches zero, as where the load is a cubic of the arc length.
 bool LoadGoesOn(const SmoothArc& arc, const Step& step, const CurvePoint& point) {
@@ -220,7 +206,6 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     }
     if (PassesAnEnd(*arc, at->step.start, *point, *ends, &at->event)) continue;
     const StepEvent found = at->event;
-    const double before = at->step.length;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
     if (EndsBeside(at->step, kOffCurve)) return false;
     if (!(at->step.length > tolerances::kNoMove)) {
@@ -228,15 +213,11 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
       return true;
     }
     DropRoundedSeconds(&at->step);
-    if (Winds(at->step)) return false;
     const StepEvent earlier = FirstEvent(arc, at->step, *ends);
-    // Rounding has put the point beyond the bifurcation that is in its place.
-    if (earlier.crossing && earlier.t >= at->step.length - tolerances::kNoMove) at->step.end.BeSingular();
     if (earlier.Kind() == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
-    // The earlier event is rounding of a short step where it leads to this point again.
-    const bool same = IsSame(earlier, found);
-    if (same && found.sample) return true;
-    if (attempt > 0 && same && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
+    // The value of a sample is rounding of a short step where it leads to this point again.
+    const auto &before = found.sample, &again = earlier.sample;
+    if (before && again && before->target == again->target && before->value == again->value) return true;
     at->event = earlier;
   }
   return false;

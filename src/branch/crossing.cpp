@@ -72,7 +72,10 @@ class Parts {
     const Eigen::Index k = v_.cols();
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> places(v_.topRows(motion_).transpose());
     Eigen::MatrixXd square(k, k), mixed(k, k);
-    for (Eigen::Index j = 0; j < k; ++j) square.row(j) = v_.row(places.colsPermutation().indices()[j]);
+    // In the order of the unknowns, whatever the pivots are.
+    Eigen::VectorXi chosen = places.colsPermutation().indices().head(k);
+    std::sort(chosen.data(), chosen.data() + k);
+    for (Eigen::Index j = 0; j < k; ++j) square.row(j) = v_.row(chosen[j]);
     v_ = v_ * square.inverse();
     for (Eigen::Index j = 0; j < k; ++j) v_.col(j) = Normalised(v_.col(j));
     for (Eigen::Index j = 0; j < k; ++j) mixed.col(j) = psi_.transpose() * form_(at_.along, v_.col(j));

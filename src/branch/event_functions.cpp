@@ -369,12 +369,6 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   const double slack = tolerances::kSamePoint * step.length;
   if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
   if (event.Kind() != EventKind::kLimitPoint) return point;
-  if ((event.singular || point->nullity > 0) && step.start.nullity == 0 && step.end.nullity == 0) {
-    // There the equations give no derivatives; the interpolation of the step that goes beyond does.
-    const CurvePoint interpolated = step.At(t);
-    point->first = interpolated.first;
-    point->second = interpolated.second;
-  }
   point->is_limit = true;
   return point;
 }

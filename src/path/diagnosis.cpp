@@ -25,8 +25,10 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kListed = 3;  // in a message
-constexpr double kDeep = 1e-3;      // of the characteristic length: what is not as deep in an obstacle is not told
+constexpr std::size_t kListed = 3;    // in a message
+constexpr double kDeep = 1e-3;        // of the characteristic length: what is not as deep in an obstacle is not told
+constexpr double kWeight = 0.1;       // share of other loads from which on constant ones are no disturbance
+constexpr double kExactLoads = 1e-6;  // error of loads, of them, that goes without a remark
 constexpr double kNearlyIncompressible = 0.48;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {
@@ -169,6 +171,14 @@ Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
     found = {{sentences::kSlenderBeam, beam.name, slender}};
   }
   return found;
+}
+
+Causes LightLoads(const Model& model) {
+  const double weight = model.structure.ConstantLoad().norm();
+  const double rounding = model.structure.NumDofs() > 0 ? model.structure.ForceRounding().maxCoeff() : 0.0;
+  const bool moves = !model.scene.support_motions.empty() || !model.scene.obstacle_motions.empty();
+  if (moves || !(weight * model.scaling.load_factor >= kWeight) || !(rounding > kExactLoads * weight)) return {};
+  return {{sentences::kLightLoads, {}, rounding / weight}};
 }
 
 Causes CurveTooSharp(const Model& model, const PathPoint& point) {

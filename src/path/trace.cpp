@@ -166,6 +166,7 @@ class Tracer {
   Causes StiffParts() const {
     Causes stiff = IsNumerical(end_.reason) ? SlenderBeam(request_.scene, index_) : Causes();
     Append(LockingSolids(request_.scene, index_), &stiff);
+    if (model_ != nullptr) Append(LightLoads(*model_), &stiff);
     return stiff;
   }
 

@@ -29,8 +29,8 @@ namespace {
 // the scene.
 constexpr double kFarthestContact = 1e4;
 
-// F of stiff parts, of their loads at most.
-constexpr double kLightest = 1e4;
+// F of beams and solids, of their loads at most.
+constexpr double kLightest = 1e3;
 // Norm of the constant loads, of that of the others: a smaller one disturbs, and tells no forces.
 constexpr double kWeight = 0.1;
 
@@ -272,13 +272,13 @@ double MotionByLoads(const Scene& scene, const SceneIndex& index, double force_n
   return farthest;
 }
 
-// The force in which the loads of a scene of stiff parts are large enough to be told from rounding [force]. Infinite
-// where the loads do not tell its forces: what moves, or parts that are stressed from the start, make others.
-double ForceForLoads(const Scene& scene, const SceneIndex& index, double length) {
-  const bool stressed =
-      std::any_of(scene.bars.begin(), scene.bars.end(), [](const Bar& bar) { return bar.rest_length > 0.0; });
-  if (stressed || MotionNorm(scene) > 0.0) return std::numeric_limits<double>::infinity();
-  return kLightest * std::max(LoadNorm(scene, index, true, length), LoadNorm(scene, index, false, length));
+// The largest F with which the loads of beams and solids can be told from rounding [force]. Infinite where the loads do
+// not tell the forces: what moves makes others, and so do bars, which may be stressed from the start.
+double LargestForLoads(const Scene& scene, const SceneIndex& index, double length) {
+  const double constant = LoadNorm(scene, index, true, length), scaled = LoadNorm(scene, index, false, length);
+  if (!scene.bars.empty() || MotionNorm(scene) > 0.0 || !(constant > 0.0 && constant >= kWeight * scaled))
+    return std::numeric_limits<double>::infinity();
+  return kLightest * std::max(constant, scaled);
 }
 
 // Smallest gap of a contact candidate at the start that is not rounding of a touching one, 0 if there is none [length].
@@ -319,9 +319,7 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;
   if (HasForceScale(scene)) {
     scaling = ScalesOfElements(scene, index);
-    const double constant = LoadNorm(scene, index, true, scaling.length);
-    if (constant > 0.0 && constant >= kWeight * LoadNorm(scene, index, false, scaling.length))
-      scaling.force = std::min(scaling.force, ForceForLoads(scene, index, scaling.length));
+    scaling.force = std::min(scaling.force, LargestForLoads(scene, index, scaling.length));
   } else {
     const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
     scaling.force = std::max({reference_load, stiffness * MotionNorm(scene), LoadNorm(scene, index, true),

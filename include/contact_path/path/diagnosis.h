@@ -27,6 +27,10 @@ Causes LockingSolids(const Scene& scene, const SceneIndex& index);
 // Names the most slender beam, where it is so stiff along its axis that its bending drowns in rounding; else empty.
 Causes SlenderBeam(const Scene& scene, const SceneIndex& index);
 
+// Where constant loads are a weight, and not a disturbance of others, and rounding of the coordinates of stiff parts
+// makes forces that are more than a millionth of them: how large these are; else empty.
+Causes LightLoads(const Model& model);
+
 // A contact at whose node all parts are softer than `least`, scaled, but not without stiffness: beside the stiff parts
 // the sign of their stiffness is lost in rounding. Else empty. point: where to look, scaled.
 Causes ContactTooSoft(const Model& model, const PathPoint& point, double least);

@@ -114,6 +114,9 @@ inline constexpr Sentence kLockingSolids =
 inline constexpr Sentence kSlenderBeam =
     "EA L^2 / EI of beam <name> is <value>: rounding of its axial force hides its bending; where it hardly stretches, "
     "EA with 1e7 gives nearly the path";
+inline constexpr Sentence kLightLoads =
+    "rounding of the coordinates makes forces of <value> of the constant loads: of softer parts, the path is more "
+    "exact";
 inline constexpr Sentence kOnCurve = "contact <name> is pressed onto a curve of the radius <value>";
 inline constexpr Sentence kCurveTurnsReaction =
     "contact <name> is pressed onto a curve of the radius <value>: rounding of the coordinates turns its reaction by "
