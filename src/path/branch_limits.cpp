@@ -12,7 +12,7 @@ constexpr int kBisections = 4;  // after which a crossing is looked for anew
 }  // namespace
 
 std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, int falls,
-                                                Eigen::MatrixXd* null_directions) {
+                                                std::optional<Crossing>* crossing) {
   double before = 0.0;
   int held = 0;  // directions at `before`
   std::optional<CurvePoint> place;
@@ -23,7 +23,7 @@ std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, 
       if (const auto found = CrossingOn(&arc_, step, before, after, falls - held, &broken)) {
         place = PointOf(found->at, arc_);
         place->BeSingular();
-        *null_directions = NullDirections(found->at);
+        *crossing = found->at;
         return place;
       }
     const double t = 0.5 * (before + after);
@@ -85,7 +85,7 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   const ArcStep& at = next->at;
   if (!(at.step.length > 0.0)) return false;
   std::optional<CurvePoint> place;
-  Eigen::MatrixXd null_directions;
+  std::optional<Crossing> crossing;
   // Where curves cross, the tangent is known less well, and the setting may turn at that point.
   const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent : 0.0;
   const Eigen::Index n = arc_.NumMotion();
@@ -107,7 +107,7 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
       after = before ? stability_->At(*before) : Stability();
     }
     if (!place && held && after.verdict == Verdict::kUnstable)
-      place = OnsetOn(at.step, last, after.directions, &null_directions);
+      place = OnsetOn(at.step, last, after.directions, &crossing);
   }
   if (!place) return false;
   // An event that coincides with something else is the one to act on.
@@ -117,9 +117,10 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
     return false;
   next->at.step = MakeStep(at.step.start, *place, arc_.NumMotion());
   next->at.event = StepEvent();
+  next->at.event.crossing = crossing;
   Balance(next);
   *increment = IncrementOf(at, from);
-  if (stability_) NoteStability(*place, *increment, null_directions);
+  if (stability_) NoteStability(*place, *increment, NullDirections(at));
   return true;
 }
 

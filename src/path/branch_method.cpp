@@ -379,14 +379,8 @@ Advance BranchMethod::Next(const PathPoint& from) {
       NoteStabilityBehind(*at, increment);
     increment.stability = stability_->record();
   }
-  if (facts.stable_ahead && machine_.IsDead()) {
-    // The direction without stiffness decides to a higher order.
-    increment.stability.stability = Verdict::kNotProved;
-    increment.stability.unstable_directions = -1;
-    increment.stability.critical_stiffness = -1.0;
-  }
   SetNextLength(*at);
-  NoteLimit(*at, increment, facts.stable_ahead, &advance);
+  NoteLimit(*at, facts, &increment, &advance);
   increment.solve.next_step = push_ ? 0.0 : step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));

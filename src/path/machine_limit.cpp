@@ -1,5 +1,6 @@
 // Where the machine that loads the structure can go no further on a stable path.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "contact_path/branch/bifurcation_branches.h"
@@ -37,7 +38,7 @@ std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
   const Eigen::Index n = arc_.NumMotion();
   const double length = kAhead * options_.step;
   const auto leads_on = [&](const Branch& branch) {
-    if (parameter_.Sense(branch.first, branch.second, n, tolerances::kRate) <= 0) return false;
+    if (parameter_.Sense(branch.first, branch.second, n, tolerances::kRate) < 0) return false;
     const Eigen::VectorXd ahead = current_.x + length * branch.first + 0.5 * length * length * branch.second;
     const Correction there = arc_.CorrectOnPlane(ahead, branch.first.head(n));
     return there.converged && parameter_.Rate(there.x - current_.x, n) > 0.0 &&
@@ -46,13 +47,26 @@ std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
   return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
 }
 
-void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, bool stable_ahead, Advance* advance) {
-  if (options_.at_limit == AtLimit::kFollow || stable_ahead) return;
+void BranchMethod::NoteLimit(const ArcStep& at, const Facts& facts, AcceptedPoint* increment, Advance* advance) {
+  if (options_.at_limit == AtLimit::kFollow) return;
   const bool none = advance->end && advance->end->reason == EndReason::kPathEnd;
   if (advance->end && !none) return;
   const Eigen::Index n = arc_.NumMotion();
   const bool turns = !none && parameter_.Sense(current_.first, current_.second, n, tolerances::kRate) < 0;
-  const bool unstable = stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable;
+  const Stability under_machine = stability_ ? stability_->UnderMachine() : Stability();
+  const bool unstable = under_machine.verdict == Verdict::kUnstable;
+  const Eigen::MatrixXd null_directions = NullDirections(at);
+  // Where curves cross, directions without stiffness decide to a higher order: right behind, the machine tells.
+  const bool decides_behind = facts.bifurcation && !none && !turns && unstable && null_directions.cols() > 0 &&
+                              under_machine.directions <= null_directions.cols();
+  if (facts.stable_ahead || (decides_behind && options_.at_limit == AtLimit::kJump)) {
+    Verdict& verdict = machine_.IsDead() ? increment->stability.stability : increment->stability.stability_controlled;
+    if (machine_.IsDead() || std::isinf(machine_.stiffness)) verdict = Verdict::kNotProved;
+    if (machine_.IsDead()) increment->stability.unstable_directions = -1;
+    increment->stability.critical_stiffness = -1.0;
+    if (!facts.stable_ahead) step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
+    return;
+  }
   if (options_.at_limit == AtLimit::kStop) {
     if (turns || (unstable && !none)) advance->end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
     return;
@@ -63,14 +77,13 @@ void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, 
   }
   advance->end.reset();
   turned_ = none || turns;
-  const Eigen::MatrixXd null_directions = NullDirections(at);
   Eigen::VectorXd along = (none ? at.step.end : current_).first.head(LoadFactor());
   const bool moves = along.norm() > tolerances::kRate;
   if (!moves) along = at.step.end.first.head(LoadFactor());
   if (null_directions.cols() > 0)
     push_ = turns ? along : Eigen::VectorXd(null_directions.col(0));
   else
-    push_ = turns && moves && at.event.Kind() != EventKind::kContactEvent ? along : Push(increment.point, along);
+    push_ = turns && moves && at.event.Kind() != EventKind::kContactEvent ? along : Push(increment->point, along);
 }
 
 Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd& along) const {

@@ -52,10 +52,12 @@ double ExtentOf(const Structure& structure, const Eigen::VectorXd& u) {
   return extent;
 }
 
-Eigen::VectorXd DiagonalStiffness(const Structure& structure, const Eigen::VectorXd& u) {
-  Eigen::SparseMatrix<double> tangent = structure.TangentPattern();
-  structure.Tangent(u, &tangent);
-  return tangent.diagonal().cwiseAbs();
+// Of the equations of motion at a point, with the curvature of what is touched.
+Eigen::VectorXd DiagonalStiffness(const Structure& structure, const ContactPairs& contacts, const PathPoint& at) {
+  FixedStateSystem system(structure, contacts);
+  system.SetStates(at.states, SlipReferences(contacts, at), at.patches);
+  const Eigen::SparseMatrix<double>& jacobian = system.TransposedJacobian(system.Pack(at));
+  return Eigen::VectorXd(jacobian.diagonal()).head(structure.NumDofs()).cwiseAbs();
 }
 
 // Where a node has no stiffness it has the share of it that does not count.
@@ -126,7 +128,7 @@ class Jumper {
         work_(structure, contacts),
         start_(solver_.WithPatches(from)),
         extent_(ExtentOf(structure, from.u)),
-        diagonal_(DiagonalStiffness(structure, from.u)),
+        diagonal_(DiagonalStiffness(structure, contacts, start_)),
         moved_(Eigen::VectorXd::Ones(from.u.size())),
         cancelled_(cancelled) {
     for (const PrescribedDof& prescribed : structure.PrescribedDofs()) moved_[prescribed.dof] = 0.0;
@@ -389,7 +391,8 @@ class Jumper {
   // taken for decay.
   int SignOfDrag(const PathPoint& point) {
     if (point.states != states_of_sign_) {
-      sign_ = solver_.DeterminantSign(point, moved_ / FirstTime({0.0 * moved_, moved_}));
+      const double largest = std::max(1.0, DiagonalStiffness(structure_, contacts_, point).maxCoeff());
+      sign_ = solver_.DeterminantSign(point, largest / tolerances::kSmallShare * moved_);
       states_of_sign_ = point.states;
     }
     return sign_;

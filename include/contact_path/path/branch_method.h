@@ -59,28 +59,14 @@ class BranchMethod : public PathMethod {
   // of the step, made anew then.
   bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
   // The place on the step at which it becomes unstable, before the parameter `after`, by bisection on the verdict;
-  // where parts buckle at one place, the point at which so many curves cross. falls: the directions at `after`.
-  std::optional<CurvePoint> OnsetOn(const Step& step, double after, int falls, Eigen::MatrixXd* null_directions);
+  // where parts buckle at one place, *crossing of so many curves. falls: the directions at `after`.
+  std::optional<CurvePoint> OnsetOn(const Step& step, double after, int falls, std::optional<Crossing>* crossing);
   // Of a point inside the arc; null_directions: of the tangent at fixed load factor, du, where it is singular.
   void NoteStability(const CurvePoint& end, const AcceptedPoint& increment, const Eigen::MatrixXd& null_directions);
   // Of the arc that begins at the event at the end of the step.
   void NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment);
   Eigen::MatrixXd NullDirections(const Crossing& crossing) const;
   Eigen::MatrixXd NullDirections(const ArcStep& at) const;
-  // Sets out from an equilibrium with all contact states that are open to it.
-  std::optional<End> SetOut(const PathPoint& from, StartRecord* found);
-  // Where the increment ends the machine can go no further on a stable path, as at_limit wants it: no branch leads on,
-  // the path parameter turns, or the equilibrium is unstable under the machine.
-  void NoteLimit(const ArcStep& at, const AcceptedPoint& increment, bool stable_ahead, Advance* advance);
-  // The direction (du) in which the structure leaves an equilibrium that is not held, contacts that may let go let go.
-  // along: to which it is turned, and where none is found.
-  Eigen::VectorXd Push(const PathPoint& point, const Eigen::VectorXd& along) const;
-  // The motion from the last increment while the machine rests, in an increment of its own, and the path from where it
-  // lands.
-  Advance TakeJump(const PathPoint& from, const Eigen::VectorXd& push);
-  // The first branch from a singular point of the curve on which the path parameter goes on, and which is stable under
-  // the machine as far as that is known; 0: none is, and the path itself goes on.
-  std::size_t StableBranch(const std::vector<Branch>& branches);
   // What is the case where an increment ends.
   struct Facts {
     bool contact_event = false, bifurcation = false, smooth_limit = false, sample = false, onset = false;
@@ -90,6 +76,20 @@ class BranchMethod : public PathMethod {
 
     IncrementKind Kind() const;
   };
+  // Sets out from an equilibrium with all contact states that are open to it.
+  std::optional<End> SetOut(const PathPoint& from, StartRecord* found);
+  // Where the increment ends the machine can go no further on a stable path, as at_limit wants it: no branch leads on,
+  // the path parameter turns, or the equilibrium is unstable under the machine.
+  void NoteLimit(const ArcStep& at, const Facts& facts, AcceptedPoint* increment, Advance* advance);
+  // The direction (du) in which the structure leaves an equilibrium that is not held, contacts that may let go let go.
+  // along: to which it is turned, and where none is found.
+  Eigen::VectorXd Push(const PathPoint& point, const Eigen::VectorXd& along) const;
+  // The motion from the last increment while the machine rests, in an increment of its own, and the path from where it
+  // lands.
+  Advance TakeJump(const PathPoint& from, const Eigen::VectorXd& push);
+  // The first branch from a singular point of the curve on which the path parameter goes on, and which is stable under
+  // the machine as far as that is known; 0: none is, and the path itself goes on.
+  std::size_t StableBranch(const std::vector<Branch>& branches);
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
   std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the path parameter
