@@ -241,9 +241,7 @@ std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice*
   arrival.singular = at.event.crossing.has_value() || at.event.singular;
   if (at_start_) arrival = departure_.StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.fails;
-  std::optional<End> end = departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
-  if (turned_back_ == 0 && departure_.turned_back()) turned_back_ = increments_;
-  return end;
+  return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
 }
 
 bool BranchMethod::FailsByRounding(const ArcStep& at) const {
@@ -389,7 +387,6 @@ Advance BranchMethod::Next(const PathPoint& from) {
 
 Causes BranchMethod::Remarks() const {
   Causes remarks = departure_.AtEnds();
-  if (turned_back_ > 0) remarks.push_back({sentences::kNoneGoesOn, {}, turned_back_});
   if (departure_.other_reactions()) remarks.push_back({sentences::kOtherReactions});
   return remarks;
 }

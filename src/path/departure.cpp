@@ -115,7 +115,6 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
   const bool goes_back = arrival.forward && branch.sense < 0 && choice == nullptr && !options_.ends_at_limit;
   if (goes_back && !record->complete) return End{EndReason::kNotDetermined, {{sentences::kMayGoOn}}};
   record->taken = static_cast<int>(*taken) + 1;
-  turned_back_ = turned_back_ || goes_back;
   other_reactions_ = other_reactions_ || branch.other_reactions;
   if (!branch.rests)
     moved_.reset();

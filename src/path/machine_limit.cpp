@@ -113,13 +113,9 @@ Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& pus
   if (jump.came_back) {
     const End held = {EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
     if (std::exchange(came_back_, true)) return Ended(held);
-    if (!turned_) {
-      // Where a disturbance sets out too slowly to be followed, it does so right behind.
-      step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
-      return {};
-    }
-    StartRecord found;
-    if (SetOut(from, &found)) return Ended(held);
+    if (turned_) return Ended(held);
+    // Where a disturbance sets out too slowly to be followed, it does so right behind.
+    step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
     return {};
   }
   if (!jump.landing)

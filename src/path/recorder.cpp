@@ -20,6 +20,15 @@ bool TurnsBackByChoice(const EventRecord& event, double change) {
          });
 }
 
+// Whether the path goes back, since no branch goes on. change: of the load until there.
+bool NoneGoesOn(const EventRecord& event, double change) {
+  if (event.taken < 1 || event.taken > static_cast<int>(event.branches.size())) return false;
+  const BranchRecord& taken = event.branches[static_cast<std::size_t>(event.taken) - 1];
+  return taken.parameter_rate < -tolerances::kRate && change * taken.load_rate < 0.0 &&
+         std::none_of(event.branches.begin(), event.branches.end(),
+                      [](const BranchRecord& branch) { return branch.parameter_rate > tolerances::kRate; });
+}
+
 std::vector<ContactRecord> ContactsAt(const Model& model, const PathPoint& point, const CheckedState& state) {
   std::vector<ContactRecord> contacts(model.contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -90,9 +99,12 @@ void Recorder::Append(const Model& model, const AcceptedPoint& accepted, double 
 }
 
 Causes Recorder::Remarks() const {
-  if (turned_back_ == 0) return {};
-  return {
-      {turned_back_ > 1 ? sentences::kTurnsBackOften : sentences::kTurnsBack, {}, first_turned_back_, turned_back_}};
+  Causes remarks;
+  if (turned_back_ > 0)
+    remarks.push_back(
+        {turned_back_ > 1 ? sentences::kTurnsBackOften : sentences::kTurnsBack, {}, first_turned_back_, turned_back_});
+  if (none_goes_on_ > 0) remarks.push_back({sentences::kNoneGoesOn, {}, none_goes_on_});
+  return remarks;
 }
 
 void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {
@@ -119,6 +131,7 @@ void Recorder::Give(double load_before) {
     if (turned_back_ == 0) first_turned_back_ = increment_.index;
     ++turned_back_;
   }
+  if (driven_ && none_goes_on_ == 0 && NoneGoesOn(increment_.event, change)) none_goes_on_ = increment_.index;
   ++increments_;
   if (on_increment_) on_increment_(increment_);
 }

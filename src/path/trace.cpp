@@ -50,7 +50,8 @@ class Tracer {
         control_(control),
         index_(request.scene),
         scales_(ProgramScales(request, index_)),
-        recorder_(request.options.method, ListsOf(request, control), Receiver()),
+        recorder_(request.options.method, ListsOf(request, control),
+                  request.options.at_limit == AtLimit::kFollow && DrivesForward(request.scene), Receiver()),
         stop_(request, index_) {}
 
   // An increment of an earlier trace that is kept.
@@ -168,6 +169,12 @@ class Tracer {
     Append(LockingSolids(request_.scene, index_), &stiff);
     if (model_ != nullptr) Append(LightLoads(*model_), &stiff);
     return stiff;
+  }
+
+  // scene: of a stage.
+  bool DrivesForward(const Scene& scene) const {
+    const bool moves = !scene.support_motions.empty() || !scene.obstacle_motions.empty();
+    return request_.options.DrivesForward(moves || !request_.program.empty());
   }
 
   // increment: index of the one to set out from.

@@ -132,6 +132,7 @@ TEST(HardScenes, ConstantLoadGoesOnWhereItCan) {
   request.scene.loads.clear();
   request.program = {stage};
   request.options.max_increments = 500;
+  request.options.branch_rule = BranchRule::kDissipation;
   const TracedPath turning = TraceIncrements(request);
   const auto turns = [](const Increment& increment) {
     return increment.event.branches.size() > 1 && increment.event.branches[0].load_rate < 0.0;

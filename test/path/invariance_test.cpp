@@ -74,8 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"peg", 0.0, 60, Method::kBranch}, Case{"rope", 0.0, 50, Method::kBranch, 28.0},
                     Case{"cam", 0.0, 150, Method::kBranch}, Case{"snap_hook", 0.0, 100, Method::kBranch},
                     Case{"fin_ray", 0.0, 250, Method::kBranch, 20.0, 80.0},
-                    Case{"peg_in_hole", 0.0, 190, Method::kBranch}, Case{"two_blocks", 0.0, 80, Method::kBranch},
-                    Case{"ring_on_ring", 0.0, 300, Method::kBranch}, Case{"crushed_ring", 0.0, 190, Method::kBranch},
+                    Case{"peg_in_hole", 0.0, 180, Method::kBranch}, Case{"two_blocks", 0.0, 80, Method::kBranch},
+                    Case{"ring_on_ring", 0.0, 210, Method::kBranch}, Case{"crushed_ring", 0.0, 180, Method::kBranch},
                     Case{"lee_frame", 0.0, 20}, Case{"cantilever_block", 0.5, 10}),
     CaseName);
 

@@ -138,7 +138,6 @@ class BranchMethod : public PathMethod {
   int increments_;                       // given so far, increment 0 not counted
   int events_;                           // passed so far, starts not counted
   int events_in_place_ = 0;              // passed without moving
-  int turned_back_ = 0;                  // the first increment from which a path that was driven forward goes back
   bool at_start_ = true;                 // not moved yet
   std::optional<double> stored_;         // strain energy at current_, where it is known [force length]
   std::optional<Eigen::VectorXd> push_;  // of the jump that comes next

@@ -59,8 +59,6 @@ class Departure {
     moved_.reset();
   }
   PathPoint TakeBegin() { return *std::exchange(begin_, std::nullopt); }
-  // Whether a path that was driven forward was turned back, since no branch goes on.
-  bool turned_back() const { return turned_back_; }
   // Whether a branch that was taken could have other reactions.
   bool other_reactions() const { return other_reactions_; }
   // StandsAtEnd() of the first start or event at which a contact did, and the path went on; else empty.
@@ -75,7 +73,7 @@ class Departure {
   std::function<bool()> cancelled_;
   std::optional<PathPoint> begin_;
   std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
-  bool other_reactions_ = false, turned_back_ = false;
+  bool other_reactions_ = false;
   Causes at_ends_;
   LargestReactionSoFar own_;  // where the options have none
   LargestReactionSoFar* const largest_reaction_;

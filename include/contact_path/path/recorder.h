@@ -21,9 +21,10 @@ void FillState(const Model& model, const PathPoint& point, Increment* increment)
 
 class Recorder {
  public:
-  // lists: the long lists that increments are to have. on_increment takes each increment; may be empty.
-  Recorder(Method method, const LongLists& lists, std::function<void(const Increment&)> on_increment)
-      : method_(method), lists_(lists), on_increment_(std::move(on_increment)) {}
+  // lists: the long lists that increments are to have. driven: by the rule of branches the path is to go forward, and
+  // it follows. on_increment takes each increment; may be empty.
+  Recorder(Method method, const LongLists& lists, bool driven, std::function<void(const Increment&)> on_increment)
+      : method_(method), lists_(lists), driven_(driven), on_increment_(std::move(on_increment)) {}
 
   // The last increment.
   const Increment& increment() const { return increment_; }
@@ -40,7 +41,7 @@ class Recorder {
   // accepted: from the last increment on. time: what it took [s].
   void Append(const Model& model, const AcceptedPoint& accepted, double time);
 
-  // Where the load was turned back although it could go on.
+  // Where the load was turned back.
   Causes Remarks() const;
 
  private:
@@ -50,12 +51,14 @@ class Recorder {
 
   Method method_;
   LongLists lists_;
+  bool driven_;
   std::function<void(const Increment&)> on_increment_;
   Increment increment_;
   int increments_ = 0;
   int first_of_stage_ = 0;
   int turned_back_ = 0;        // increments from which the load goes back and need not
   int first_turned_back_ = 0;  // the first of them
+  int none_goes_on_ = 0;       // the first increment from which a driven path goes back, since no branch goes on
 };
 
 }  // namespace contact_path
