@@ -59,7 +59,7 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
   if (options_.at_limit == AtLimit::kStop) return End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
   if (options_.at_limit == AtLimit::kFollow) return end;
   push_ = Push(from, parameter_.Gradient(arc_.NumMotion()).head(LoadFactor()));
-  turned_ = end.has_value();
+  limit_ = end ? Limit::kTurns : Limit::kUnstable;
   return std::nullopt;
 }
 

@@ -76,7 +76,8 @@ void BranchMethod::NoteLimit(const ArcStep& at, const Facts& facts, AcceptedPoin
     return;
   }
   advance->end.reset();
-  turned_ = none || turns;
+  const bool at_event = none || at.event.Kind() == EventKind::kContactEvent;
+  limit_ = !none && !turns ? Limit::kUnstable : at_event ? Limit::kAtEvent : Limit::kTurns;
   Eigen::VectorXd along = (none ? at.step.end : current_).first.head(LoadFactor());
   const bool moves = along.norm() > tolerances::kRate;
   if (!moves) along = at.step.end.first.head(LoadFactor());
@@ -113,9 +114,13 @@ Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& pus
   if (jump.came_back) {
     const End held = {EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
     if (std::exchange(came_back_, true)) return Ended(held);
-    if (turned_) return Ended(held);
+    StartRecord found;
+    // What rests may set out on any branch, also on the one of arrival.
+    if (limit_ == Limit::kAtEvent && SetOut(from, &found)) return Ended(held);
+    if (limit_ == Limit::kTurns) return Ended(held);
     // Where a disturbance sets out too slowly to be followed, it does so right behind.
-    step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
+    if (limit_ == Limit::kUnstable)
+      step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
     return {};
   }
   if (!jump.landing)
@@ -143,7 +148,7 @@ Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& pus
   increment.stability = std::move(found.stability);
   if (stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable) {
     push_ = Push(increment.point, push);
-    turned_ = advance.end.has_value();
+    limit_ = advance.end ? Limit::kTurns : Limit::kUnstable;
     advance.end.reset();
   }
   advance.increments.push_back(std::move(increment));

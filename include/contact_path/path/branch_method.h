@@ -76,6 +76,9 @@ class BranchMethod : public PathMethod {
 
     IncrementKind Kind() const;
   };
+  // Why the machine goes no further: no branch on which the parameter goes on leads on from an event, the parameter
+  // turns on the curve, or the equilibrium is unstable.
+  enum class Limit { kAtEvent, kTurns, kUnstable };
   // Sets out from an equilibrium with all contact states that are open to it.
   std::optional<End> SetOut(const PathPoint& from, StartRecord* found);
   // Where the increment ends the machine can go no further on a stable path, as at_limit wants it: no branch leads on,
@@ -141,7 +144,7 @@ class BranchMethod : public PathMethod {
   bool at_start_ = true;                 // not moved yet
   std::optional<double> stored_;         // strain energy at current_, where it is known [force length]
   std::optional<Eigen::VectorXd> push_;  // of the jump that comes next
-  bool turned_ = false;                  // why: the path parameter turns, or no branch leads on
+  Limit limit_ = Limit::kTurns;          // why
   bool came_back_ = false;               // a jump from the increment before did
 };
 
