@@ -58,8 +58,8 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
   if (!unstable || (end && end->reason != EndReason::kPathEnd)) return end;
   if (options_.at_limit == AtLimit::kStop) return End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
   if (options_.at_limit == AtLimit::kFollow) return end;
-  push_ = Push(from, parameter_.Gradient(arc_.NumMotion()).head(LoadFactor()));
-  limit_ = end ? Limit::kTurns : Limit::kUnstable;
+  leaving_ = Leaving{Push(from, parameter_.Gradient(arc_.NumMotion()).head(LoadFactor())),
+                     end ? Limit::kTurns : Limit::kUnstable, std::move(end)};
   return std::nullopt;
 }
 
@@ -327,7 +327,7 @@ bool BranchMethod::Balance(BalancedStep* step) const {
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
-  if (push_) return TakeJump(from, *std::exchange(push_, std::nullopt));
+  if (leaving_) return TakeJump(from, *std::exchange(leaving_, std::nullopt));
   if (departure_.ChangesReactions()) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
   std::optional<BalancedStep> next = NextBalancedStep();
@@ -379,7 +379,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   }
   SetNextLength(*at);
   NoteLimit(*at, facts, &increment, &advance);
-  increment.solve.next_step = push_ ? 0.0 : step_length_;
+  increment.solve.next_step = leaving_ ? 0.0 : step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));
   return advance;

@@ -75,16 +75,19 @@ void BranchMethod::NoteLimit(const ArcStep& at, const Facts& facts, AcceptedPoin
     came_back_ = false;
     return;
   }
-  advance->end.reset();
   const bool at_event = none || at.event.Kind() == EventKind::kContactEvent;
-  limit_ = !none && !turns ? Limit::kUnstable : at_event ? Limit::kAtEvent : Limit::kTurns;
   Eigen::VectorXd along = (none ? at.step.end : current_).first.head(LoadFactor());
   const bool moves = along.norm() > tolerances::kRate;
   if (!moves) along = at.step.end.first.head(LoadFactor());
-  if (null_directions.cols() > 0)
-    push_ = turns ? along : Eigen::VectorXd(null_directions.col(0));
-  else
-    push_ = turns && moves && at.event.Kind() != EventKind::kContactEvent ? along : Push(increment->point, along);
+  if (null_directions.cols() > 0 && !turns)
+    along = null_directions.col(0);
+  else if (null_directions.cols() == 0 && !(turns && moves && !at_event))
+    along = Push(increment->point, along);
+  leaving_ = Leaving{std::move(along),
+                     !none && !turns ? Limit::kUnstable
+                     : at_event      ? Limit::kAtEvent
+                                     : Limit::kTurns,
+                     std::exchange(advance->end, std::nullopt)};
 }
 
 Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd& along) const {
@@ -108,18 +111,20 @@ Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd
   return found.direction.dot(along) < 0.0 ? Eigen::VectorXd(-found.direction) : found.direction;
 }
 
-Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& push) {
-  JumpResult jump = Jump(model_.structure, model_.contacts, from, push, machine_, options_.landing_checks, cancelled_);
+Advance BranchMethod::TakeJump(const PathPoint& from, Leaving leaving) {
+  JumpResult jump =
+      Jump(model_.structure, model_.contacts, from, leaving.push, machine_, options_.landing_checks, cancelled_);
   if (jump.cancelled) return Ended({EndReason::kCancelled, {{sentences::kCancelled}}});
   if (jump.came_back) {
-    const End held = {EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
-    if (std::exchange(came_back_, true)) return Ended(held);
+    End held = leaving.end ? *leaving.end : End{EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
+    const bool again = std::exchange(came_back_, true);
     StartRecord found;
     // What rests may set out on any branch, also on the one of arrival.
-    if (limit_ == Limit::kAtEvent && SetOut(from, &found)) return Ended(held);
-    if (limit_ == Limit::kTurns) return Ended(held);
+    const bool goes_on =
+        leaving.limit == Limit::kUnstable || (leaving.limit == Limit::kAtEvent && !again && !SetOut(from, &found));
+    if (again || !goes_on) return Ended(std::move(held));
     // Where a disturbance sets out too slowly to be followed, it does so right behind.
-    if (limit_ == Limit::kUnstable)
+    if (leaving.limit == Limit::kUnstable)
       step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
     return {};
   }
@@ -146,10 +151,11 @@ Advance BranchMethod::TakeJump(const PathPoint& from, const Eigen::VectorXd& pus
   advance.end = SetOut(increment.point, &found);
   increment.event = std::move(found.branches);
   increment.stability = std::move(found.stability);
-  if (stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable) {
-    push_ = Push(increment.point, push);
-    limit_ = advance.end ? Limit::kTurns : Limit::kUnstable;
-    advance.end.reset();
+  const bool unstable = stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable;
+  if (advance.end ? advance.end->reason == EndReason::kPathEnd : unstable) {
+    // It has landed where the next part is at its limit: it moves on the same way.
+    leaving_ = Leaving{Push(increment.point, increment.point.u - from.u), Limit::kTurns,
+                       std::exchange(advance.end, std::nullopt)};
   }
   advance.increments.push_back(std::move(increment));
   return advance;

@@ -125,8 +125,8 @@ int ExpectSameLandings(const TraceRequest& request) {
     const PathPoint from = model.FromIncrement(path.increments[i]), to = model.FromIncrement(path.increments[i + 1]);
     double nearest = kRigid;
     for (const double sign : {1.0, -1.0}) {
-      const Eigen::VectorXd rest =
-          RestOf(model.structure, from, request.options.machine_stiffness / model.UnitOfMachineStiffness(), sign);
+      const Eigen::VectorXd rest = RestOf(
+          model.structure, from, request.options.machine_stiffness / model.SizeOfLoads().unit_of_stiffness, sign);
       if (rest.size() > 0) nearest = std::min(nearest, (rest - to.u).lpNorm<Eigen::Infinity>());
     }
     EXPECT_LE(nearest, 1e-6) << request.scene.name << " " << path.increments[i].load_factor;

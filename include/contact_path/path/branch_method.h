@@ -79,6 +79,12 @@ class BranchMethod : public PathMethod {
   // Why the machine goes no further: no branch on which the parameter goes on leads on from an event, the parameter
   // turns on the curve, or the equilibrium is unstable.
   enum class Limit { kAtEvent, kTurns, kUnstable };
+  // A jump that comes next. end: of the path where nothing moves; nothing: kNoLanding.
+  struct Leaving {
+    Eigen::VectorXd push;  // du
+    Limit limit = Limit::kUnstable;
+    std::optional<End> end = {};
+  };
   // Sets out from an equilibrium with all contact states that are open to it.
   std::optional<End> SetOut(const PathPoint& from, StartRecord* found);
   // Where the increment ends the machine can go no further on a stable path, as at_limit wants it: no branch leads on,
@@ -89,7 +95,7 @@ class BranchMethod : public PathMethod {
   Eigen::VectorXd Push(const PathPoint& point, const Eigen::VectorXd& along) const;
   // The motion from the last increment while the machine rests, in an increment of its own, and the path from where it
   // lands.
-  Advance TakeJump(const PathPoint& from, const Eigen::VectorXd& push);
+  Advance TakeJump(const PathPoint& from, Leaving leaving);
   // The first branch from a singular point of the curve on which the path parameter goes on, and which is stable under
   // the machine as far as that is known; 0: none is, and the path itself goes on.
   std::size_t StableBranch(const std::vector<Branch>& branches);
@@ -138,14 +144,13 @@ class BranchMethod : public PathMethod {
   StepEnds ends_;
   CurvePoint current_;
   double step_length_;
-  int increments_;                       // given so far, increment 0 not counted
-  int events_;                           // passed so far, starts not counted
-  int events_in_place_ = 0;              // passed without moving
-  bool at_start_ = true;                 // not moved yet
-  std::optional<double> stored_;         // strain energy at current_, where it is known [force length]
-  std::optional<Eigen::VectorXd> push_;  // of the jump that comes next
-  Limit limit_ = Limit::kTurns;          // why
-  bool came_back_ = false;               // a jump from the increment before did
+  int increments_;                // given so far, increment 0 not counted
+  int events_;                    // passed so far, starts not counted
+  int events_in_place_ = 0;       // passed without moving
+  bool at_start_ = true;          // not moved yet
+  std::optional<double> stored_;  // strain energy at current_, where it is known [force length]
+  std::optional<Leaving> leaving_;
+  bool came_back_ = false;  // a jump from the increment before did
 };
 
 }  // namespace contact_path
