@@ -2,10 +2,13 @@
 
 #include <dmumps_c.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include "contact_path/linear/large_system.h"
@@ -19,6 +22,7 @@ namespace {
 constexpr double kMostGrowth = 1e6;    // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
 constexpr double kStiffened = 4.0;     // more than a negative stiffness
 constexpr double kLarge = 0.5;         // an entry of a constraint
+constexpr Eigen::Index kDense = 200;   // unknowns and constraints, of which eigenvalues are found as soon as by MUMPS
 constexpr double kCompliance = -1e-9;  // of redundant constraints: entry of their diagonal
 
 // The numbers of MUMPS' manual, which counts from 1.
@@ -74,6 +78,7 @@ struct SymmetricFactors::Small {
 
   // False where |L| |D| |L'| says that a pivot was small beside what it divides.
   bool Factorize(const Matrix& scaled, Eigen::Index constraints) {
+    dense.reset();
     // K + kStiffened C' C in place of K: the same solutions, and no pivot of an unknown that comes with its constraint
     // is small.
     columns = scaled.rightCols(constraints);
@@ -91,9 +96,18 @@ struct SymmetricFactors::Small {
       if (anew && !analysed) break;
       if (anew || !analysed) factors.analyzePattern(pattern);
       factors.factorize(pattern);
-      if (factors.info() == Eigen::Success && Growth() < kMostGrowth) return true;
+      if (factors.info() == Eigen::Success && Growth() < kMostGrowth) return Count(factors.vectorD());
     }
-    return false;
+    if (scaled.rows() > kDense) return false;
+    const Eigen::MatrixXd all = scaled;
+    dense.emplace(all);
+    return Count(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(all, Eigen::EigenvaluesOnly).eigenvalues());
+  }
+
+  bool Count(const Eigen::VectorXd& pivots) {
+    negative = (pivots.array() < 0.0).count();
+    regular = (pivots.array().abs() > tolerances::kSingularPivot).all();
+    return true;
   }
 
   // The largest entry of |L| |D| |L'|, which is on its diagonal.
@@ -107,6 +121,10 @@ struct SymmetricFactors::Small {
   }
 
   void Solve(Eigen::MatrixXd* right) const {
+    if (dense) {
+      *right = dense->solve(*right);
+      return;
+    }
     if (columns.cols() > 0) *right += kStiffened * columns * right->bottomRows(columns.cols());
     *right = factors.solve(*right);
   }
@@ -114,6 +132,9 @@ struct SymmetricFactors::Small {
   Matrix pattern;  // with the values of the last time
   Matrix columns;  // of the constraints
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower, UnknownsWithConstraints> factors;
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> dense;  // where a small pivot takes digits of the factors
+  Eigen::Index negative = 0;
+  bool regular = false;
 };
 
 // By MUMPS, with the pivots of Bunch and Kaufman.
@@ -203,13 +224,13 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
   scaled.makeCompressed();
   if (!small_) small_ = std::make_unique<Small>();
   is_large_ = matrix.rows() >= kLargeSystem || !small_->Factorize(scaled, constraints);
-  if (!is_large_) return (small_->factors.vectorD().array().abs() > tolerances::kSingularPivot).all();
+  if (!is_large_) return small_->regular;
   if (!large_) large_ = std::make_unique<Large>();
   return large_->Factorize(scaled);
 }
 
 Eigen::Index SymmetricFactors::NegativeEigenvalues() const {
-  return is_large_ ? large_->Information(12) : (small_->factors.vectorD().array() < 0.0).count();
+  return is_large_ ? large_->Information(12) : small_->negative;
 }
 
 void SymmetricFactors::Solve(Eigen::MatrixXd* columns) const {

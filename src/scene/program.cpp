@@ -239,6 +239,8 @@ Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
   Scaling largest = CharacteristicScales(StageScene(request, index, 0), index);
   if (request.program.empty()) return largest;
   const bool of_elements = HasForceScale(request.scene);
+  if (!request.scene.bars.empty()) return largest;  // bars tell the forces, whatever the loads are
+  const double load_factor = largest.load_factor;
   largest.force = 0.0;
   for (const Stage& stage : request.program) {
     if (stage.unload) continue;  // brings no force on
@@ -251,7 +253,8 @@ Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
     const Scaling scaling = CharacteristicScales(loaded, index);
     if (scaling.force > largest.force) largest = scaling;
   }
-  if (!of_elements || !request.scene.bars.empty() || !request.scene.solids.empty()) return largest;
+  if (of_elements) largest.load_factor = load_factor;
+  if (!of_elements || !request.scene.solids.empty()) return largest;
   for (const Stage& stage : request.program)
     largest.force = std::max(largest.force, kShareOfLoads * SumOfLoads(stage, request.scene, index, largest.length));
   return largest;

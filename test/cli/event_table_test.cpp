@@ -18,9 +18,9 @@ TEST(EventTable, NamesWhatChangesAndHasNoNumbersOfRounding) {
   increment.event.taken = 1;
   increment.contacts.resize(2);
   increment.contacts[0].state = ContactState::kStick;
-  increment.event.branches = {{{ContactState::kStick, ContactState::kOpen}, -4.452e-16, 8.638e-17, 1.49e-8},
-                              {{ContactState::kSlipPlus, ContactState::kOpen}, 4.958e-6, 3.807e-7, 0.25},
-                              {{ContactState::kSlipMinus, ContactState::kStick}, 0.5, 0.0, 0.0}};
+  increment.event.branches = {{{ContactState::kStick, ContactState::kOpen}, -4.452e-16, -4.452e-16, 8.638e-17, 1.49e-8},
+                              {{ContactState::kSlipPlus, ContactState::kOpen}, 4.958e-6, 4.958e-6, 3.807e-7, 0.25},
+                              {{ContactState::kSlipMinus, ContactState::kStick}, 0.5, 0.5, 0.0, 0.0}};
   std::ostringstream out;
   PrintBranches(request, increment, 1.0, out);
   EXPECT_EQ(

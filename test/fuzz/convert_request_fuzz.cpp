@@ -28,6 +28,7 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
   WriteOut(&message.options.friction_law, "incremental");
   WriteOut(&message.options.stability, "true");
   WriteOut(&message.options.at_limit, "follow");
+  WriteOut(&message.options.branch_rule, "automatic");
   for (msgs::Bar& bar : message.scene.bars) WriteOut(&bar.strain, "biot");
   for (msgs::Material& material : message.scene.materials) WriteOut(&material.model, "neo_hookean");
   for (msgs::Solid& solid : message.scene.solids) WriteOut(&solid.plane, "strain");

@@ -106,7 +106,7 @@ Increment FullIncrement() {
   increment.stresses = {{65.0, 66.0, 67.0, 68.0, 69.0, 70.0}};
   increment.pressures = {{71.0, 72.0, 73.0}, {74.0, 75.0, 76.0}};
   increment.widths = {77.0, 78.0};
-  increment.event.branches = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 33.0, 34.0},
+  increment.event.branches = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 35.5, 33.0, 34.0},
                               {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
   increment.event.number = 41;
   increment.event.taken = 1;
@@ -173,6 +173,7 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.event.branches[0].states,
             (std::vector<std::uint8_t>{msgs::ContactState::OPEN, msgs::ContactState::SLIP_PLUS}));
   EXPECT_EQ(message.event.branches[0].load_rate, 32.0);
+  EXPECT_EQ(message.event.branches[0].parameter_rate, 35.5);
   EXPECT_EQ(message.event.branches[0].dissipation_rate, 33.0);
   EXPECT_EQ(message.event.branches[0].turn, 34.0);
   EXPECT_EQ(message.event.number, 41U);

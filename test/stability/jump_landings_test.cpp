@@ -140,21 +140,27 @@ TEST(JumpLandings, OfPerfectArches) {
     for (const int segments : {6, 10})
       for (const double stiffness : {0.0, 20.0, 200.0, kRigid})
         jumps += ExpectSameLandings(Arch(rise, segments, stiffness));
-  EXPECT_GE(jumps, 8);
+  EXPECT_GE(jumps, 5);
 }
 
 TEST(JumpLandings, OfCurvedBeams) {
-  for (const double imperfection : {0.001, 0.01, 0.1}) EXPECT_GE(ExpectSameLandings(CurvedBeam(imperfection)), 1);
+  int jumps = 0;
+  for (const double imperfection : {0.001, 0.01, 0.1}) jumps += ExpectSameLandings(CurvedBeam(imperfection));
+  EXPECT_GE(jumps, 1);
 }
 
-// Behind a bifurcation that the machine passes the landing is next to the start, on the curve that crosses there.
-TEST(JumpLandings, NextToTheStart) {
+// At a bifurcation the machine goes on along the curve that crosses, where a damped motion rests as well.
+TEST(JumpLandings, ACurveThatCrossesNeedsNone) {
   TraceRequest request = Arch(0.2, 16, 200.0);
+  request.options.at = {{"load_factor", {4.2304992622}}};
   const TracedPath path = TraceIncrements(request);
-  const std::vector<Increment> jumps = IncrementsOfKind(path, IncrementKind::kJump);
-  ASSERT_FALSE(jumps.empty());
-  EXPECT_NEAR(jumps[0].load_factor, 4.2304992622, 1e-9);
-  EXPECT_NEAR(std::abs(PositionX(path, jumps[0], "c")), 3.7538e-5, 1e-9);
+  const std::vector<Increment> crossed = IncrementsOfKind(path, IncrementKind::kBifurcation);
+  ASSERT_FALSE(crossed.empty());
+  EXPECT_NEAR(crossed[0].load_factor, 4.2305418, 1e-6);
+  const auto sample = std::find_if(path.increments.begin() + crossed[0].index, path.increments.end(),
+                                   [](const auto& increment) { return increment.kind == IncrementKind::kSample; });
+  ASSERT_NE(sample, path.increments.end());
+  EXPECT_NEAR(std::abs(PositionX(path, *sample, "c")), 3.7538e-5, 1e-9);
 }
 
 // Pinned column, elastica: 0.35 of its length is left at 1.52 Pcr.
@@ -192,10 +198,10 @@ TEST(JumpLandings, AreStableWhereAllOfEqualPartsBuckle) {
     request.options.stop = {{"load_factor", ">", 3.0}};
     const TracedPath path = TraceIncrements(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << columns << " " << path.result.message;
-    const auto jump = std::find_if(path.increments.begin(), path.increments.end(),
-                                   [](const Increment& increment) { return increment.kind == IncrementKind::kJump; });
-    ASSERT_NE(jump, path.increments.end()) << columns;
-    for (auto increment = jump; increment != path.increments.end(); ++increment)
+    const std::vector<Increment> buckled = IncrementsOfKind(path, IncrementKind::kBifurcation);
+    ASSERT_FALSE(buckled.empty()) << columns;
+    for (auto increment = path.increments.begin() + buckled[0].index + 1; increment != path.increments.end();
+         ++increment)
       EXPECT_EQ(increment->stability.stability, Verdict::kStable) << columns << " " << increment->index;
   }
 }

@@ -55,7 +55,7 @@ class ArcEquations {
   virtual double ResidualUnit() const { return 1.0; }
   // A change of the unknowns with zeros in place of what depends on the axes alone, and the norm of that.
   virtual Eigen::VectorXd Counted(const Eigen::VectorXd& change) const { return change; }
-  double Norm(const Eigen::VectorXd& change) const { return Counted(change).norm(); }
+  virtual double Norm(const Eigen::VectorXd& change) const { return Counted(change).norm(); }
   // Whether F at x is rounding.
   virtual bool Hold(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const = 0;
   // For BorderedSolver; null: none.

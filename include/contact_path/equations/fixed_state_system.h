@@ -66,6 +66,9 @@ class FixedStateSystem : public ArcEquations {
   // Of the force on a moved support the component along its motion counts: whether the component across it is an
   // unknown depends on the axes.
   Eigen::VectorXd Counted(const Eigen::VectorXd& change) const override;
+  double Norm(const Eigen::VectorXd& change) const override {
+    return structure_.ObliqueSupports().empty() ? change.norm() : Counted(change).norm();
+  }
   // The pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x) override;
   bool Mixed() const override { return structure_.Mixed(); }
