@@ -72,7 +72,8 @@ def print_beam(beams):
     print('machine      top   at way  jumps  falls to   bottom   at way  released')
     for stiffness, (way, force, path) in beams.items():
         jumps = [jump['index'] for jump in path.jumps]
-        top, first = force.argmax(), jumps[0]
+        top = force.argmax()
+        first = jumps[0] if jumps else top
         bottom = first + force[first:].argmin()
         print('%7g  %7.1f  %7.3f  %5d  %8.1f  %7.1f  %7.3f  %8.4f'
               % (stiffness, force[top], way[top], len(jumps), force[first], force[bottom], way[bottom],
