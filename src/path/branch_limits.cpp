@@ -1,4 +1,4 @@
-// Where the machine that loads the structure can go no further, and the equilibrium ceases to be stable.
+// Where on a step the equilibrium ceases to be stable.
 #include <algorithm>
 
 #include "contact_path/path/branch_method.h"

@@ -168,12 +168,12 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
   facts->smooth_limit = kind == EventKind::kLimitPoint;
   if (facts->smooth_limit && at.event.crossing) {
     increment->event.null_vector = CrossingPath(*at.event.crossing);
-    facts->bifurcation = options_.at_limit != AtLimit::kFollow && TakeCrossingThatLoads(at);
+    facts->bifurcation = options_.at_limit != AtLimit::kFollow && TakeCrossingThatGoesOn(at);
   }
   return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, facts);
 }
 
-bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
+bool BranchMethod::TakeCrossingThatGoesOn(const ArcStep& at) {
   const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
   const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
     return parameter_.Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;

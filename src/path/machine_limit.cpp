@@ -111,21 +111,30 @@ Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd
   return found.direction.dot(along) < 0.0 ? Eigen::VectorXd(-found.direction) : found.direction;
 }
 
+Advance BranchMethod::StartAnew(const PathPoint& from, End held) {
+  StartRecord found;
+  ++increments_;
+  if (SetOut(from, &found)) return Ended(std::move(held));
+  AcceptedPoint increment = IncrementAt(from, from);
+  increment.kind = IncrementKind::kContactEvent;
+  increment.event = std::move(found.branches);
+  increment.event.number = ++events_;
+  increment.stability = std::move(found.stability);
+  Advance advance;
+  advance.increments.push_back(std::move(increment));
+  return advance;
+}
+
 Advance BranchMethod::TakeJump(const PathPoint& from, Leaving leaving) {
   JumpResult jump =
       Jump(model_.structure, model_.contacts, from, leaving.push, machine_, options_.landing_checks, cancelled_);
   if (jump.cancelled) return Ended({EndReason::kCancelled, {{sentences::kCancelled}}});
   if (jump.came_back) {
     End held = leaving.end ? *leaving.end : End{EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
-    const bool again = std::exchange(came_back_, true);
-    StartRecord found;
-    // What rests may set out on any branch, also on the one of arrival.
-    const bool goes_on =
-        leaving.limit == Limit::kUnstable || (leaving.limit == Limit::kAtEvent && !again && !SetOut(from, &found));
-    if (again || !goes_on) return Ended(std::move(held));
+    if (std::exchange(came_back_, true) || leaving.limit == Limit::kTurns) return Ended(std::move(held));
+    if (leaving.limit == Limit::kAtEvent) return StartAnew(from, std::move(held));
     // Where a disturbance sets out too slowly to be followed, it does so right behind.
-    if (leaving.limit == Limit::kUnstable)
-      step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
+    step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
     return {};
   }
   if (!jump.landing)

@@ -1,7 +1,5 @@
 #include "contact_path/path/machine_setting.h"
 
-#include <cmath>
-
 namespace contact_path {
 
 MachineSetting::MachineSetting(const Model& model, double stiffness) {
@@ -9,10 +7,8 @@ MachineSetting::MachineSetting(const Model& model, double stiffness) {
   if (!(stiffness > 0.0) || loads.norm == 0.0) return;
   machine_.stiffness = stiffness / loads.unit_of_stiffness;
   unit_ = loads.unit_of_displacement;
-  const Eigen::Index nd = model.structure.NumDofs();
-  row_.resize(nd + 1);
-  row_ << model.structure.ReferenceLoad() / loads.norm,
-      std::isinf(machine_.stiffness) ? 0.0 : 1.0 / (machine_.stiffness * loads.norm);
+  row_ = machine_.Row(model.structure);
+  row_ *= model.structure.ReferenceLoad().norm() / (loads.norm * row_.head(model.structure.NumDofs()).norm());
 }
 
 PathParameter MachineSetting::Parameter(double sense) const {

@@ -126,6 +126,11 @@ void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool 
   if (checker_.NothingFound() && brought_on_.IsNothing())
     checker_.Add(path.Key("unload"), "true",
                  "the stages before must have left a load or a motion that can be taken back");
+  const bool moved = brought_on_.Has(BroughtOn::Kind::kSupport) || brought_on_.Has(BroughtOn::Kind::kObstacle);
+  if (checker_.Request().options.machine_stiffness > 0.0 && moved && brought_on_.Has(BroughtOn::Kind::kLoad))
+    checker_.Add(path.Key("unload"), "true",
+                 "must be false where loads and motions are taken back and a machine loads the structure "
+                 "(machine_stiffness): a stage has a machine or motions");
 }
 
 void LoadingRules::NoteBroughtOn(const Stage& stage) {

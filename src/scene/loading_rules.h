@@ -25,6 +25,10 @@ class BroughtOn {
   void Add(Kind kind, std::size_t part, int component, double value);
   void TakeBack(double share);
   bool IsNothing() const { return sums_.empty(); }
+  bool Has(Kind kind) const {
+    const auto first = sums_.lower_bound({kind, 0, 0});
+    return first != sums_.end() && std::get<0>(first->first) == kind;
+  }
 
  private:
   struct Sum {

@@ -238,25 +238,25 @@ ObstaclePlace PlaceOf(const TraceRequest& request, const Obstacle& obstacle, std
 Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
   Scaling largest = CharacteristicScales(StageScene(request, index, 0), index);
   if (request.program.empty()) return largest;
-  const bool of_elements = HasForceScale(request.scene);
-  if (!request.scene.bars.empty()) return largest;  // bars tell the forces, whatever the loads are
-  const double load_factor = largest.load_factor;
-  largest.force = 0.0;
-  for (const Stage& stage : request.program) {
-    if (stage.unload) continue;  // brings no force on
-    Scene loaded = LoadedAtTarget(stage, request.scene);
-    if (of_elements) {
-      // What has a target is as sure to come as what is constant.
-      for (Load& load : loaded.loads) load.constant = true;
-      loaded.loads.insert(loaded.loads.end(), request.scene.loads.begin(), request.scene.loads.end());
+  if (!HasForceScale(request.scene)) {
+    largest.force = 0.0;
+    for (const Stage& stage : request.program) {
+      if (stage.unload) continue;  // brings no force on
+      const Scaling scaling = CharacteristicScales(LoadedAtTarget(stage, request.scene), index);
+      if (scaling.force > largest.force) largest = scaling;
     }
-    const Scaling scaling = CharacteristicScales(loaded, index);
-    if (scaling.force > largest.force) largest = scaling;
+    return largest;
   }
-  if (of_elements) largest.load_factor = load_factor;
-  if (!of_elements || !request.scene.solids.empty()) return largest;
-  for (const Stage& stage : request.program)
-    largest.force = std::max(largest.force, kShareOfLoads * SumOfLoads(stage, request.scene, index, largest.length));
+  if (!request.scene.bars.empty()) return largest;
+  // What has a target is as sure to come as what is constant.
+  double loads = 0.0;
+  bool moves = false;
+  for (const Stage& stage : request.program) {
+    loads = std::max(loads, SumOfLoads(stage, request.scene, index, largest.length));
+    moves = moves || !stage.support_motions.empty() || !stage.obstacle_motions.empty();
+  }
+  largest.force = ForceOfElements(request.scene, index, loads, moves);
+  if (request.scene.solids.empty()) largest.force = std::max(largest.force, kShareOfLoads * loads);
   return largest;
 }
 

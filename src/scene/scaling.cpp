@@ -272,15 +272,6 @@ double MotionByLoads(const Scene& scene, const SceneIndex& index, double force_n
   return farthest;
 }
 
-// The largest F with which the loads of beams and solids can be told from rounding [force]. Infinite where the loads do
-// not tell the forces: what moves makes others, and so do bars, which may be stressed from the start.
-double LargestForLoads(const Scene& scene, const SceneIndex& index, double length) {
-  const double constant = LoadNorm(scene, index, true, length), scaled = LoadNorm(scene, index, false, length);
-  if (!scene.bars.empty() || MotionNorm(scene) > 0.0 || !(constant > 0.0 && constant >= kWeight * scaled))
-    return std::numeric_limits<double>::infinity();
-  return kLightest * std::max(constant, scaled);
-}
-
 // Smallest gap of a contact candidate at the start that is not rounding of a touching one, 0 if there is none [length].
 double NearestGap(const Scene& scene, const SceneIndex& index) {
   std::vector<double> gaps;
@@ -319,7 +310,11 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;
   if (HasForceScale(scene)) {
     scaling = ScalesOfElements(scene, index);
-    scaling.force = std::min(scaling.force, LargestForLoads(scene, index, scaling.length));
+    // What the load factor scales has no end, and a constant load that is far smaller disturbs, and tells no forces.
+    const double constant = LoadNorm(scene, index, true, scaling.length),
+                 scaled = LoadNorm(scene, index, false, scaling.length);
+    const bool tells = constant > 0.0 && constant >= kWeight * scaled;
+    scaling.force = ForceOfElements(scene, index, tells ? scaled : 0.0, !tells || MotionNorm(scene) > 0.0);
   } else {
     const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
     scaling.force = std::max({reference_load, stiffness * MotionNorm(scene), LoadNorm(scene, index, true),
@@ -332,6 +327,13 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   }
   scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);
   return scaling;
+}
+
+double ForceOfElements(const Scene& scene, const SceneIndex& index, double loads, bool moves) {
+  const Scaling of_elements = ScalesOfElements(scene, index);
+  const double light = std::max(loads, LoadNorm(scene, index, true, of_elements.length));
+  return moves || !scene.bars.empty() || light == 0.0 ? of_elements.force
+                                                      : std::min(of_elements.force, kLightest * light);
 }
 
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force) {

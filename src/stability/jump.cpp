@@ -171,7 +171,6 @@ class Jumper {
       course = std::move(next);
       if (!course.rests) return course;
       at = StabilityOf(course.now);
-      if (course.landing) course.landing->verdict = at.verdict;
       if (course.landing && at.verdict == Verdict::kStable) return course;
       directions = {at.direction, GenericVector(moved_.size())};
       for (Eigen::VectorXd& direction : directions)
@@ -381,8 +380,12 @@ class Jumper {
     landing.point = last.point;
     landing.loads = course->work.loads;
     landing.stored = structure_.Energy(last.point.u) - structure_.Energy(start_.u);
-    // Drag takes energy: what friction is found to take beyond the rest is the error of its integral.
-    landing.friction = std::min(course->work.friction, std::max(0.0, landing.loads - landing.stored));
+    // Drag takes energy: what friction is found to take beyond the rest is the error of its integral, and small.
+    const double left = std::max(0.0, landing.loads - landing.stored), friction = course->work.friction;
+    if (friction - left > tolerances::kEnergyOfStep * (std::abs(landing.loads) + std::abs(landing.stored) + friction) +
+                              tolerances::kEqual * (1.0 + structure_.Energy(start_.u)))
+      return;
+    landing.friction = std::min(friction, left);
     course->landing = landing;
   }
 

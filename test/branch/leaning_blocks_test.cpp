@@ -10,24 +10,8 @@
 namespace contact_path::leaning_blocks_test {
 namespace {
 
-// A block of width 1 and height 1 whose top is displaced by -lean, on nx x 2 elements. The plate comes down by 0.2.
 TraceRequest LeaningBlock(int nx, double lean, double friction) {
-  TraceRequest request;
-  Scene& scene = request.scene;
-  scene.name = "leaning block";
-  scene.materials = {ElasticMaterial("m", 1.0, 0.3)};
-  Solid block;
-  block.material = "m";
-  block.nodes_per_element = 4;
-  AddGrid(
-      &scene, nx, 2, [&](double x, double y) { return Eigen::Vector2d(x - lean * y, y); }, block);
-  scene.obstacles = {{"plate", ObstacleShape::kHalfPlane, 0.0, 1.0, 0.0, -1.0, friction}};
-  scene.obstacle_motions = {{"plate", 0.0, -1.0}};
-  for (Node& node : scene.nodes) {
-    node.fixed_x = node.fixed_y = node.y == 0.0;
-    if (node.y == 1.0) scene.contacts.push_back({node.name, "plate"});
-  }
-  request.options.stop = {{"load_factor", ">", 0.2}};
+  TraceRequest request = PressedBlock(nx, 2, 4, lean, friction);
   request.options.max_increments = 60;
   return request;
 }

@@ -140,7 +140,7 @@ TEST(JumpLandings, OfPerfectArches) {
     for (const int segments : {6, 10})
       for (const double stiffness : {0.0, 20.0, 200.0, kRigid})
         jumps += ExpectSameLandings(Arch(rise, segments, stiffness));
-  EXPECT_GE(jumps, 5);
+  EXPECT_EQ(jumps, 7);
 }
 
 TEST(JumpLandings, OfCurvedBeams) {
@@ -161,25 +161,6 @@ TEST(JumpLandings, ACurveThatCrossesNeedsNone) {
                                    [](const auto& increment) { return increment.kind == IncrementKind::kSample; });
   ASSERT_NE(sample, path.increments.end());
   EXPECT_NEAR(std::abs(PositionX(path, *sample, "c")), 3.7538e-5, 1e-9);
-}
-
-// Pinned column, elastica: 0.35 of its length is left at 1.52 Pcr.
-TEST(JumpLandings, OfEulersColumnWhateverItsAxialStiffness) {
-  for (const double EA : {1e3, 1e4, 1e5, 1e6, 1e7}) {
-    TraceRequest request = Jumping(0.0, 400);
-    request.scene.name = "column";
-    request.scene.nodes = {{"b", 0.0, 0.0, true, true}, {"t", 0.0, 1.0, true, false}};
-    request.scene.beams = {Between("c", "b", "t", EA, 1.0, 20)};
-    Stage press;
-    press.name = "press";
-    press.loads = {{"t", 0.0, -1.0, false}};
-    press.target = 15.0;
-    request.program = {press};
-    const TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << EA << " " << path.result.message;
-    EXPECT_NEAR(PositionY(path, path.increments.back(), "t"), 0.3505, EA > 1e3 ? 2e-3 : 1e-2) << EA;
-    EXPECT_EQ(path.increments.back().stability.stability, Verdict::kStable) << EA;
-  }
 }
 
 TEST(JumpLandings, AreStableWhereAllOfEqualPartsBuckle) {
@@ -270,7 +251,7 @@ TEST(JumpLandings, FrictionOfASlideBehindTheClosingOfAContact) {
       mean += (force - from.s * model.structure.ReferenceLoad()).dot(Eigen::Vector2d(0.6, 0.8)) / kPoints;
     }
     const double exact = friction * mean * way.norm();
-    EXPECT_NEAR(jump.landing->friction, exact, 1e-5 * exact) << friction;  // the rule, where the force is not constant
+    EXPECT_NEAR(jump.landing->friction, exact, 1e-6 * exact) << friction;
   }
 }
 

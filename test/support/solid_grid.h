@@ -101,6 +101,28 @@ inline bool HasGridNode(const Scene& scene, int i, int j) {
   return false;
 }
 
+// A block of width 1 and height 1 whose top is displaced by -lean, held below, on nx x ny elements of so many nodes,
+// pressed by a rough plate that comes down by 0.2.
+inline TraceRequest PressedBlock(int nx, int ny, int nodes_per_element, double lean, double friction) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "pressed block";
+  scene.materials = {ElasticMaterial("m", 1.0, 0.3)};
+  Solid block;
+  block.material = "m";
+  block.nodes_per_element = nodes_per_element;
+  AddGrid(
+      &scene, nx, ny, [&](double x, double y) { return Eigen::Vector2d(x - lean * y, y); }, block);
+  scene.obstacles = {{"plate", ObstacleShape::kHalfPlane, 0.0, 1.0, 0.0, -1.0, friction}};
+  scene.obstacle_motions = {{"plate", 0.0, -1.0}};
+  for (Node& node : scene.nodes) {
+    node.fixed_x = node.fixed_y = node.y == 0.0;
+    if (node.y == 1.0) scene.contacts.push_back({node.name, "plate"});
+  }
+  request.options.stop = {{"load_factor", ">", 0.2}};
+  return request;
+}
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_TEST_SUPPORT_SOLID_GRID_H_

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_BRANCH_PATH_PARAMETER_H_
 
 #include <Eigen/Core>
-#include <utility>
 
 #include "contact_path/equations/measured.h"
 #include "contact_path/tolerances.h"

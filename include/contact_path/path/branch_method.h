@@ -96,14 +96,16 @@ class BranchMethod : public PathMethod {
   // The motion from the last increment while the machine rests, in an increment of its own, and the path from where it
   // lands.
   Advance TakeJump(const PathPoint& from, Leaving leaving);
-  // The first branch from a singular point of the curve on which the path parameter goes on, and which is stable under
-  // the machine as far as that is known; 0: none is, and the path itself goes on.
+  // Where a jump from an event comes back: what rests may set out on any branch, also on that of arrival, which the
+  // list of the event leaves out. An increment in place has them on record. held: the end, if no branch leads on.
+  Advance StartAnew(const PathPoint& from, End held);
+  // The first of the branches from a singular point of the curve on which the path parameter goes on, and which is
+  // stable under the machine; their number: none is.
   std::size_t StableBranch(const std::vector<Branch>& branches);
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
   std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
-  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the path parameter
-  // goes on there.
-  bool TakeCrossingThatLoads(const ArcStep& at);
+  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if that goes on.
+  bool TakeCrossingThatGoesOn(const ArcStep& at);
   std::optional<End> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   std::optional<End> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   // Where branch_choices names the increment: takes a branch there. The increment keeps its kind if that is the path

@@ -27,6 +27,11 @@ bool HasForceScale(const Scene& scene);
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index);
 inline Scaling CharacteristicScales(const Scene& scene) { return CharacteristicScales(scene, SceneIndex(scene)); }
 
+// F of a scene with HasForceScale(), whose loads are the constant ones and others of the size `loads` [force]. At most
+// 1e3 times the larger one, so that light loads on stiff parts can be told from rounding. moves: supports or obstacles
+// make forces besides; then, and with bars, which may be stressed from the start, the loads do not tell.
+double ForceOfElements(const Scene& scene, const SceneIndex& index, double loads, bool moves);
+
 // 1 / |(norm of the reference load on the free components / F, norm of the motions of supports and obstacles / L)|.
 // Moments are forces times L, rotations motions over L.
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force);

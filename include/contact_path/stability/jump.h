@@ -11,7 +11,6 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/stability/machine.h"
-#include "contact_path/stability/verdict.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -26,11 +25,11 @@ enum class Drag {
 
 // Scaled. The work of the loads is stored, taken by friction, and released: taken by drag.
 struct Landing {
-  PathPoint point;  // Newton's method has converged on the equations of equilibrium
-  // Under the machine: stable, or not proved, and then small disturbances come back.
-  Verdict verdict = Verdict::kNotProved;
+  // Newton's method has converged on the equations of equilibrium; it is stable under the machine, or where that is not
+  // proved, small disturbances come back.
+  PathPoint point;
   double friction = 0.0;  // work against friction along the way [force length]; by the incremental law >= 0
-  double loads = 0.0;     // of all loads, constant and scaled, and of supports and obstacles that move with s
+  double loads = 0.0;     // of all loads, constant and scaled
   double stored = 0.0;    // strain energy gained
 
   double energy_released() const { return loads - friction - stored; }

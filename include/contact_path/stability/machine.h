@@ -14,10 +14,6 @@ struct Machine {
   // k >= 0. 0: dead loads, s stays with the setting. Infinite: f . u does.
   double stiffness = 0.0;
 
-  // Where no load is scaled by s, as where supports or obstacles alone are moved, s is the setting whatever k is.
-  static Machine Of(const Structure& structure, double stiffness) {
-    return {structure.ReferenceLoad().isZero(0.0) ? 0.0 : stiffness};
-  }
   bool IsDead() const { return stiffness == 0.0; }
   double Compliance() const { return 1.0 / stiffness; }
   // row . (u, s) is the setting times a number > 0, NumDofs() + 1 entries: with the displacement in units in which f
