@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <unsupported/Eigen/AutoDiff>
-#include <utility>
 
 namespace contact_path::check {
 namespace {

@@ -1,7 +1,6 @@
 #include "check/contacts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>

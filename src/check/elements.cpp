@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 #include <unsupported/Eigen/AutoDiff>
-#include <utility>
 
 namespace contact_path::check {
 namespace {

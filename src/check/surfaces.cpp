@@ -1,7 +1,6 @@
 #include "check/surfaces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

@@ -4,7 +4,6 @@
 // and the names that columns have.
 #include <cstddef>
 #include <iostream>
-#include <string>
 
 #include "cli/json_fields.h"
 #include "cli/scene_program.h"

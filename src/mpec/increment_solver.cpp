@@ -1,7 +1,6 @@
 #include "contact_path/mpec/increment_solver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "contact_path/equations/nearest_point.h"

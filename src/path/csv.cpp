@@ -5,7 +5,6 @@
 #include <locale>
 #include <ostream>
 
-#include "contact_path/scene/expand.h"
 #include "contact_path/scene/scene_index.h"
 
 namespace contact_path {

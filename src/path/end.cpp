@@ -1,7 +1,5 @@
 #include <cstddef>
-#include <string>
 #include <utility>
-#include <variant>
 
 #include "contact_path/path/end.h"
 #include "contact_path/scene/text.h"

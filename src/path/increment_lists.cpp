@@ -1,7 +1,5 @@
 #include "contact_path/path/increment_lists.h"
 
-#include <string>
-
 #include "contact_path/scene/element_names.h"
 #include "contact_path/scene/reacting_parts.h"
 

@@ -1,6 +1,5 @@
 #include "contact_path/path/preload.h"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,7 +8,6 @@
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/free_motion.h"
-#include "contact_path/path/model.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 

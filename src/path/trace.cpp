@@ -4,12 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <new>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/linear/blas.h"
@@ -20,11 +16,8 @@
 #include "contact_path/path/free_motion.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/machine_setting.h"
-#include "contact_path/path/model.h"
-#include "contact_path/path/path_method.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
-#include "contact_path/path/return_detector.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/path/watched_quantities.h"

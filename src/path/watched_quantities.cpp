@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/path/machine_setting.h"
 #include "contact_path/path/recorder.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/change_units.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "contact_path/branch/gauss_rule.h"
-#include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
 namespace {

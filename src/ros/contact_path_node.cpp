@@ -1,6 +1,5 @@
 // The ROS node: reads its parameters and serves until it is told to stop. See trace_service.h and trace_action.h.
 #include <csignal>
-#include <cstdlib>
 #include <ctime>
 #include <exception>
 

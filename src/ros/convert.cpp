@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/key_path.h"

@@ -1,7 +1,6 @@
 #include "contact_path/ros/increment_publisher.h"
 
 #include <algorithm>
-#include <chrono>
 #include <new>
 #include <utility>
 

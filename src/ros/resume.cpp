@@ -3,11 +3,9 @@
 #include <stdexcept>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/scene/field.h"
-#include "contact_path/scene/scene.h"
 #include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_path.h"
 

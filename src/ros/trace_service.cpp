@@ -1,19 +1,16 @@
 #include "contact_path/ros/trace_service.h"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/ros/bag_reader.h"
-#include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"

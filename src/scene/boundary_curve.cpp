@@ -1,7 +1,6 @@
 #include "contact_path/scene/boundary_curve.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

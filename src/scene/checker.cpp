@@ -6,7 +6,6 @@
 
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
-#include "contact_path/scene/text.h"
 
 namespace contact_path {
 namespace {

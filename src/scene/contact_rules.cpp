@@ -1,8 +1,6 @@
 #include "scene/contact_rules.h"
 
 #include <cmath>
-#include <set>
-#include <string>
 
 #include "contact_path/scene/surface.h"
 

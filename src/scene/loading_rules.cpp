@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "contact_path/scene/can_slide.h"
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <map>
 #include <numeric>
 #include <string_view>
 #include <unordered_map>
-#include <vector>
 
 namespace contact_path {
 namespace {

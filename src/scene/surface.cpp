@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <sstream>
-#include <utility>
 
 #include "contact_path/geometry/curve.h"
 #include "contact_path/geometry/polyline.h"

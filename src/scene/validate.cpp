@@ -1,7 +1,6 @@
 #include "contact_path/scene/validate.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <utility>
 

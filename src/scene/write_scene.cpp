@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <type_traits>
-#include <vector>
 
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/words.h"

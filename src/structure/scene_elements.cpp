@@ -13,7 +13,6 @@
 #include "contact_path/structure/bar.h"
 #include "contact_path/structure/beam.h"
 #include "contact_path/structure/material.h"
-#include "contact_path/structure/solid.h"
 #include "contact_path/structure/superelement.h"
 
 namespace contact_path {

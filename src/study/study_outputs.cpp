@@ -1,11 +1,7 @@
 #include "contact_path/study/study_outputs.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <optional>
 #include <sstream>
-#include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "contact_path/path/csv.h"
@@ -13,7 +9,6 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
-#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {

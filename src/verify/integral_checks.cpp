@@ -1,9 +1,6 @@
 #include "verify/integral_checks.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
-#include <vector>
 
 namespace contact_path {
 namespace {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <vector>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/increment.h"

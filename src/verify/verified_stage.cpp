@@ -1,9 +1,7 @@
 #include "verify/verified_stage.h"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "contact_path/scene/can_slide.h"

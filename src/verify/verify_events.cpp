@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"

@@ -2,7 +2,6 @@
 #ifndef CONTACT_PATH_GEOMETRY_SPLINE_H_
 #define CONTACT_PATH_GEOMETRY_SPLINE_H_
 
-#include <Eigen/Core>
 #include <memory>
 
 #include "contact_path/geometry/curve.h"

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_PATH_CSV_H_
 
 #include <array>
-#include <cstddef>
 #include <iosfwd>
 #include <sstream>
 #include <string>

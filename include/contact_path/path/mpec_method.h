@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/mpec/increment_solver.h"

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_PATH_RETURN_DETECTOR_H_
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
