@@ -26,25 +26,7 @@ std::string Joined(const std::vector<double>& numbers) {
 }
 
 constexpr std::string_view kState = "state_";
-
 constexpr std::string_view kSolveTime = "solve_time";
-
-// Columns of verdicts and jumps: numbers, or words.
-struct OfStability {
-  std::string_view name;
-  double (*number)(const Increment&);
-  std::string_view (*word)(const Increment&);
-};
-constexpr OfStability kOfStability[] = {
-    {"stability", nullptr, [](const Increment& increment) { return ToString(increment.stability.stability); }},
-    {"stability_controlled", nullptr,
-     [](const Increment& increment) { return ToString(increment.stability.stability_controlled); }},
-    {"unstable_directions",
-     [](const Increment& increment) { return static_cast<double>(increment.stability.unstable_directions); }, nullptr},
-    {"critical_stiffness", [](const Increment& increment) { return increment.stability.critical_stiffness; }, nullptr},
-    {"energy_released", [](const Increment& increment) { return increment.jump.energy_released; }, nullptr},
-    {"landing_robust", [](const Increment& increment) { return increment.jump.landing_robust ? 1.0 : 0.0; }, nullptr},
-};
 
 [[noreturn]] void Reject(const std::string& rule) { throw std::invalid_argument(rule); }
 
@@ -55,10 +37,8 @@ std::string UnknownPart(const SpelledQuantity& quantity, const Scene& scene) {
 
 std::string UnknownColumn(const std::string& name) {
   NearestName nearest(name);
-  for (const CsvNumber& column : kCsvNumbers)
+  for (const CsvColumn& column : kCsvColumns)
     if (column.name != kSolveTime) nearest.Offer(column.name);
-  nearest.Offer("kind");
-  for (const OfStability& column : kOfStability) nearest.Offer(column.name);
   return "must be a column of the CSV, as load_factor, x_<node> or rn_<contact>" + nearest.Question();
 }
 
@@ -166,10 +146,7 @@ PathColumn::PathColumn(const std::string& name, const TraceRequest& request, con
   if (name == "stage" && request.program.empty()) Reject("must be of a scene with a program");
   if (name == "landing_robust" && !request.options.landing_checks) Reject("must be of a trace with landing_checks");
   if (name == kSolveTime) Reject("must be the same whenever it is computed: solve_time is not");
-  for (const CsvNumber& column : kCsvNumbers)
-    if (name == column.name) number_ = column.value;
-  if (name == "kind") word_ = [](const Increment& increment) { return ToString(increment.kind); };
-  for (const OfStability& column : kOfStability) {
+  for (const CsvColumn& column : kCsvColumns) {
     if (name != column.name) continue;
     if (column.number != nullptr) number_ = column.number;
     if (column.word != nullptr) word_ = column.word;

@@ -122,9 +122,13 @@ TEST(CsvRow, HasTheStageOfAProgramBehindTheTime) {
 }
 
 TEST(CsvRow, WithoutContacts) {
+  TraceRequest request = TwoNodes();
+  request.scene.contacts.clear();
   Increment increment;
-  increment.positions = {1.0, 2.0};
-  EXPECT_EQ(Row(increment), "0,0,0,regular,1,2,0,0,0,0,0,,,-1,-1\n");
+  increment.positions = {1.0, 2.0, 3.0, 4.0};
+  std::ostringstream out;
+  CsvWriter(request).WriteRow(increment, out);
+  EXPECT_EQ(out.str(), "0,0,0,regular,1,2,3,4,0,0,0,0,0,,,-1,-1\n");
 }
 
 TEST(CsvRow, NumbersReadBackExactly) {
@@ -137,11 +141,16 @@ TEST(CsvRow, NumbersReadBackExactly) {
                                     Limits::max(),
                                     Limits::min(),
                                     Limits::denorm_min(),
-                                    1.0 + Limits::epsilon()};
+                                    1.0 + Limits::epsilon(),
+                                    -0.0};
+  TraceRequest request;
+  for (std::size_t i = 0; 2 * i < numbers.size(); ++i) request.scene.nodes.push_back({"n" + std::to_string(i)});
   Increment increment;
   increment.positions = numbers;
   increment.load_factor = 2.0 / 3.0;
-  const std::vector<std::string> cells = Cells(Row(increment));
+  std::ostringstream out;
+  CsvWriter(request).WriteRow(increment, out);
+  const std::vector<std::string> cells = Cells(out.str());
   EXPECT_EQ(std::strtod(cells[1].c_str(), nullptr), 2.0 / 3.0);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     EXPECT_EQ(std::strtod(cells[4 + i].c_str(), nullptr), numbers[i]) << cells[4 + i];
@@ -160,7 +169,7 @@ TEST(CsvRow, KindsAndStatesHaveTheirWords) {
                                                                     {IncrementKind::kOnset, "onset"},
                                                                     {IncrementKind::kJump, "jump"}}};
   for (const auto& [kind, word] : kinds) {
-    Increment increment;
+    Increment increment = FullIncrement();
     increment.kind = kind;
     EXPECT_EQ(Cells(Row(increment))[3], word);
   }
@@ -170,9 +179,9 @@ TEST(CsvRow, KindsAndStatesHaveTheirWords) {
                                                                     {ContactState::kSlipMinus, "slip-"},
                                                                     {ContactState::kClosed, "closed"}}};
   for (const auto& [state, word] : states) {
-    Increment increment;
-    increment.contacts = {{0.0, 0.0, 0.0, state}};
-    EXPECT_EQ(Cells(Row(increment))[7], word);
+    Increment increment = FullIncrement();
+    increment.contacts[0].state = state;
+    EXPECT_EQ(Cells(Row(increment))[11], word);
   }
 }
 

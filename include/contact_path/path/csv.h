@@ -2,7 +2,7 @@
 #ifndef CONTACT_PATH_PATH_CSV_H_
 #define CONTACT_PATH_PATH_CSV_H_
 
-#include <array>
+#include <functional>
 #include <iosfwd>
 #include <sstream>
 #include <string>
@@ -10,35 +10,46 @@
 #include <vector>
 
 #include "contact_path/path/increment.h"
-#include "contact_path/scene/element_names.h"
-#include "contact_path/scene/expand.h"
-#include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
 
-// A column of numbers of the increment as a whole.
-struct CsvNumber {
-  enum class Place { kFirst, kBehindContacts, kBehindContactsOfProgram };
+// A column of the increment as a whole: of numbers, or of words.
+struct CsvColumn {
+  enum class Place { kFirst, kBehindContacts, kOfProgram, kOfStability, kOfMachine, kOfJumps, kOfChecks };
+  Place place;
   std::string_view name;
-  double (*value)(const Increment&);
-  Place place = Place::kBehindContacts;
+  double (*number)(const Increment&);
+  std::string_view (*word)(const Increment&) = nullptr;
 };
 
 // In the order of the CSV.
-inline constexpr std::array<CsvNumber, 9> kCsvNumbers = {{
-    {"index", [](const Increment& increment) { return static_cast<double>(increment.index); },
-     CsvNumber::Place::kFirst},
-    {"load_factor", [](const Increment& increment) { return increment.load_factor; }, CsvNumber::Place::kFirst},
-    {"arc_length", [](const Increment& increment) { return increment.arc_length; }, CsvNumber::Place::kFirst},
-    {"dissipation", [](const Increment& increment) { return increment.dissipation; }},
-    {"strain_energy", [](const Increment& increment) { return increment.strain_energy; }},
-    {"equilibrium_residual", [](const Increment& increment) { return increment.residuals.equilibrium; }},
-    {"complementarity_residual", [](const Increment& increment) { return increment.residuals.Contact(); }},
-    {"solve_time", [](const Increment& increment) { return increment.solve.time; }},
-    {"stage", [](const Increment& increment) { return static_cast<double>(increment.stage); },
-     CsvNumber::Place::kBehindContactsOfProgram},
-}};
+inline constexpr CsvColumn kCsvColumns[] = {
+    {CsvColumn::Place::kFirst, "index", [](const Increment& of) { return static_cast<double>(of.index); }},
+    {CsvColumn::Place::kFirst, "load_factor", [](const Increment& of) { return of.load_factor; }},
+    {CsvColumn::Place::kFirst, "arc_length", [](const Increment& of) { return of.arc_length; }},
+    {CsvColumn::Place::kFirst, "kind", nullptr, [](const Increment& of) { return ToString(of.kind); }},
+    {CsvColumn::Place::kBehindContacts, "dissipation", [](const Increment& of) { return of.dissipation; }},
+    {CsvColumn::Place::kBehindContacts, "strain_energy", [](const Increment& of) { return of.strain_energy; }},
+    {CsvColumn::Place::kBehindContacts, "equilibrium_residual",
+     [](const Increment& of) { return of.residuals.equilibrium; }},
+    {CsvColumn::Place::kBehindContacts, "complementarity_residual",
+     [](const Increment& of) { return of.residuals.Contact(); }},
+    {CsvColumn::Place::kBehindContacts, "solve_time", [](const Increment& of) { return of.solve.time; }},
+    {CsvColumn::Place::kOfProgram, "stage", [](const Increment& of) { return static_cast<double>(of.stage); }},
+    {CsvColumn::Place::kOfStability, "stability", nullptr,
+     [](const Increment& of) { return ToString(of.stability.stability); }},
+    {CsvColumn::Place::kOfStability, "stability_controlled", nullptr,
+     [](const Increment& of) { return ToString(of.stability.stability_controlled); }},
+    {CsvColumn::Place::kOfStability, "unstable_directions",
+     [](const Increment& of) { return static_cast<double>(of.stability.unstable_directions); }},
+    {CsvColumn::Place::kOfStability, "critical_stiffness",
+     [](const Increment& of) { return of.stability.critical_stiffness; }},
+    {CsvColumn::Place::kOfMachine, "setting", [](const Increment& of) { return of.setting; }},
+    {CsvColumn::Place::kOfJumps, "energy_released", [](const Increment& of) { return of.jump.energy_released; }},
+    {CsvColumn::Place::kOfChecks, "landing_robust",
+     [](const Increment& of) { return of.jump.landing_robust ? 1.0 : 0.0; }},
+};
 
 // A line in the making: the same bytes whatever the locale and the format flags of the stream it ends up in, doubles
 // with 17 significant digits.
@@ -63,15 +74,12 @@ class CsvWriter {
   void WriteRow(const Increment& increment, std::ostream& out) const;
 
  private:
-  explicit CsvWriter(const ExpandedRequest& expanded);
+  struct Column {
+    std::string name;
+    std::function<void(const Increment&, std::ostream&)> write;
+  };
 
-  std::vector<std::string> nodes_, contacts_;  // names
-  std::vector<SupportedNode> supports_;
-  std::vector<std::string> touched_, boundaries_;  // names; of boundaries empty: no columns of forces
-  ElementNames elements_;
-  bool sections_, stresses_, pressures_, stability_, machine_, jumps_, checks_;
-  std::vector<bool> turn_;  // by node
-  bool program_;
+  std::vector<Column> columns_;
 };
 
 }  // namespace contact_path
