@@ -10,8 +10,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -44,53 +42,12 @@ double OrderedSum(std::vector<double> terms) {
 
 double Distance(const Node& a, const Node& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-// A stiffness that is a force, as EA is.
-struct IsForceStiffness {
-  template <typename Field>
-  bool operator()(const Field& field) const {
-    return field.unit == units::kForce && field.range == Range::kPositive;
-  }
-};
-
-// The entries of a stiffness matrix, or the stiffness of a spring.
-struct IsStiffness {
-  template <typename Field>
-  bool operator()(const Field& field) const {
-    return field.unit == units::kStiffness;
-  }
-};
-
-// Calls visit(element, number) for each number of an element in a field that is wanted.
-template <typename Wanted, typename Visit>
-void ForEachElementNumber(const Scene& scene, Wanted wanted, Visit&& visit) {
-  ForEachElementList(scene, [&](std::string_view, const auto& elements) {
-    using Part = typename std::decay_t<decltype(elements)>::value_type;
-    ForEachField<Part>([&](const auto& field) {
-      using Value = typename std::decay_t<decltype(field)>::Value;
-      if (!wanted(field)) return;
-      for (const Part& element : elements) {
-        if constexpr (std::is_same_v<Value, double>) visit(element, element.*field.member);
-        if constexpr (std::is_same_v<Value, std::vector<double>>)
-          for (const double number : element.*field.member) visit(element, number);
-      }
-    });
-  });
-}
-
 // The length between the first node of an element and its last one, along all of its nodes.
-template <typename Part>
-double LengthOf(const Part& element, const Scene& scene, const SceneIndex& index) {
+double LengthOf(const std::vector<std::string>& nodes, const Scene& scene, const SceneIndex& index) {
   double length = 0.0;
-  for (std::size_t i = 1; i < element.nodes.size(); ++i)
-    length += Distance(scene.nodes[index.Node(element.nodes[i - 1])], scene.nodes[index.Node(element.nodes[i])]);
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    length += Distance(scene.nodes[index.Node(nodes[i - 1])], scene.nodes[index.Node(nodes[i])]);
   return length;
-}
-
-// The force that deforms an element by something like its length: EA of a bar, EI / length^2 of a beam.
-template <typename Part>
-double ForceOf(const Part& element, double EA, double length) {
-  if constexpr (std::is_same_v<Part, Beam>) return element.EI / (length * length);
-  return EA;
 }
 
 // Length and force of all solids as one body: the root of its area, and the mean of Young's modulus x thickness, by its
@@ -120,15 +77,19 @@ Scaling ScalesOfSolids(const Scene& scene, const SceneIndex& index) {
   return scaling;
 }
 
-// Mean length [length] and exp(mean ln force) of the elements with a stiffness EA that is a force, by their
-// initial lengths, and of the body of all solids. There must be one.
+// Mean length [length] and exp(mean ln force) of bars and beams, by their initial lengths, and of the body of all
+// solids. There must be one. The force deforms it by something like its length: EA of a bar, EI / length^2 of a beam.
 Scaling ScalesOfElements(const Scene& scene, const SceneIndex& index) {
   std::vector<double> lengths, logarithms;
-  ForEachElementNumber(scene, IsForceStiffness(), [&](const auto& bar, double EA) {
-    const double length = LengthOf(bar, scene, index);
+  for (const Bar& bar : scene.bars) {
+    lengths.push_back(LengthOf(bar.nodes, scene, index));
+    logarithms.push_back(std::log(bar.EA));
+  }
+  for (const Beam& beam : scene.beams) {
+    const double length = LengthOf(beam.nodes, scene, index);
     lengths.push_back(length);
-    logarithms.push_back(std::log(ForceOf(bar, EA, length)));
-  });
+    logarithms.push_back(std::log(beam.EI / (length * length)));
+  }
   if (!scene.solids.empty()) {
     const Scaling body = ScalesOfSolids(scene, index);
     lengths.push_back(body.length);
@@ -199,17 +160,14 @@ double MotionNorm(const Scene& scene, double length = 1.0) {
   return std::sqrt(OrderedSum(std::move(squares)));
 }
 
-// sqrt(sum K_ij^2 / rows) over all elements with a stiffness [force/length]. The Frobenius norm does not change by
-// rotation.
+// sqrt(sum K_ij^2 / rows) over all linear parts [force/length]. The Frobenius norm does not change by rotation.
 double MeanStiffness(const Scene& scene) {
   std::vector<double> squares;
   std::size_t rows = 0;
-  const void* before = nullptr;
-  ForEachElementNumber(scene, IsStiffness(), [&](const auto& element, double entry) {
-    if (before != &element) rows += 2 * element.nodes.size();
-    before = &element;
-    squares.push_back(entry * entry);
-  });
+  for (const Superelement& part : scene.superelements) {
+    rows += 2 * part.nodes.size();
+    for (const double entry : part.stiffness) squares.push_back(entry * entry);
+  }
   return std::sqrt(OrderedSum(std::move(squares)) / static_cast<double>(rows));
 }
 
@@ -300,11 +258,7 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
 
 }  // namespace
 
-bool HasForceScale(const Scene& scene) {
-  bool found = !scene.solids.empty();
-  ForEachElementNumber(scene, IsForceStiffness(), [&](const auto&, double) { found = true; });
-  return found;
-}
+bool HasForceScale(const Scene& scene) { return !scene.bars.empty() || !scene.beams.empty() || !scene.solids.empty(); }
 
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;

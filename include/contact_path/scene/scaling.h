@@ -19,8 +19,7 @@ struct Scaling {
   double load_factor = 1.0;  // LoadFactorScale
 };
 
-// Whether length and force follow from the elements alone: an element with a stiffness that is a force, as a bar, gives
-// both.
+// Whether length and force follow from the elements alone: a bar, a beam or a solid gives both.
 bool HasForceScale(const Scene& scene);
 
 // `scene` must be sound (validate.h). index: of the scene, here and below.
