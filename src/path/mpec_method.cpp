@@ -8,7 +8,6 @@
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/equations/nearest_point.h"
 #include "contact_path/path/model.h"
-#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -84,14 +83,6 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   return true;
 }
 
-// By verdict.
-constexpr sentences::Sentence kSentences[] = {
-    sentences::kAccepted,      sentences::kCancelled,  sentences::kNotSolved,    sentences::kResidual,
-    sentences::kContradiction, sentences::kTooLong,    sentences::kNoProgress,   sentences::kWrongDirection,
-    sentences::kTurnedBack,    sentences::kBackAtRest, sentences::kNotConfirmed, sentences::kBeyondTarget};
-
-sentences::Sentence SentenceOf(MpecVerdict verdict) { return kSentences[static_cast<std::size_t>(verdict)]; }
-
 }  // namespace
 
 MpecOptions MpecOptions::For(const TraceOptions& options, double growth) {
@@ -140,7 +131,7 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
   trial.increment = solver_.Solve(from, {length, direction, dissipation, gamma2_factor_}, schedule);
   iterations_ += trial.increment.iterations;
   Judge(from, direction, length, &trial);
-  if (trial.verdict == MpecVerdict::kAccepted || !trial.increment.predicted) return trial;
+  if (trial.verdict == sentences::kAccepted || !trial.increment.predicted) return trial;
   // Another solution may lie nearer to the first guess.
   return Try(from, direction, length, dissipation, false);
 }
@@ -162,8 +153,7 @@ bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) cons
 void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const {
   Trial& trial = *result;
   if (trial.increment.status != SolveStatus::kSolved) {
-    trial.verdict =
-        trial.increment.status == SolveStatus::kCancelled ? MpecVerdict::kCancelled : MpecVerdict::kNotSolved;
+    trial.verdict = trial.increment.status == SolveStatus::kCancelled ? sentences::kCancelled : sentences::kNotSolved;
     return;
   }
   const PathPoint& to = trial.increment.point;
@@ -171,21 +161,21 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   const double tolerance = trial.increment.exact ? tolerances::kAccepted : tolerances::kAcceptedRegularised;
   const double moved = Distance(from, to);
   if (!(trial.residuals.Largest() <= tolerance))
-    trial.verdict = MpecVerdict::kResidual;
+    trial.verdict = sentences::kResidual;
   else if (!trial.increment.exact && !StatesAgree(model_.contacts, from, to))
-    trial.verdict = MpecVerdict::kContradiction;
+    trial.verdict = sentences::kContradiction;
   else if (moved > IncrementSolver::kLongestIncrement * length)
-    trial.verdict = MpecVerdict::kTooLong;
+    trial.verdict = sentences::kTooLong;
   else if (moved < kProgress * length)
-    trial.verdict = MpecVerdict::kNoProgress;
+    trial.verdict = sentences::kNoProgress;
   else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
-    trial.verdict = MpecVerdict::kWrongDirection;
+    trial.verdict = sentences::kWrongDirection;
   else if (TurnsBack(from, to, direction) || (started_ && Direction(from, to).dot(onward_) < kWayBack))
-    trial.verdict = MpecVerdict::kTurnedBack;
+    trial.verdict = sentences::kTurnedBack;
   else if (GoesBackAtRest(from, to))
-    trial.verdict = MpecVerdict::kBackAtRest;
+    trial.verdict = sentences::kBackAtRest;
   else
-    trial.verdict = MpecVerdict::kAccepted;
+    trial.verdict = sentences::kAccepted;
 }
 
 // The direction that step 0 of Algorithm 3.2 leaves to the user.
@@ -205,10 +195,10 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
                                    const Trial& whole) {
   const PathPoint& to = whole.increment.point;
   const Trial first = Try(from, direction, 0.5 * length);
-  if (first.verdict != MpecVerdict::kAccepted) return false;
+  if (first.verdict != sentences::kAccepted) return false;
   const PathPoint& middle = first.increment.point;
   const Trial second = Try(middle, Direction(from, middle), 0.5 * length);
-  if (second.verdict != MpecVerdict::kAccepted) return false;
+  if (second.verdict != sentences::kAccepted) return false;
   // Distance of the middle from the chord of the whole increment.
   const Eigen::VectorXd chord = Direction(from, to);
   Eigen::VectorXd bend = Chord(from, middle);
@@ -292,36 +282,36 @@ Advance MpecMethod::Next(const PathPoint& from) {
   Advance advance;
   iterations_ = 0;
   double length = step_length_;
-  std::optional<MpecVerdict> first;
+  std::optional<sentences::Sentence> first;
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
-    if (trial.verdict == MpecVerdict::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
+    if (trial.verdict == sentences::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
         !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
-      trial.verdict = MpecVerdict::kNotConfirmed;
-    if (trial.verdict == MpecVerdict::kAccepted && options_.target &&
+      trial.verdict = sentences::kNotConfirmed;
+    if (trial.verdict == sentences::kAccepted && options_.target &&
         (from.s - *options_.target) * (to.s - *options_.target) < 0.0 && !EndAtTarget(from, &trial))
-      trial.verdict = MpecVerdict::kBeyondTarget;
-    if (trial.verdict == MpecVerdict::kAccepted && MayMissTarget(from, to)) trial.verdict = MpecVerdict::kBeyondTarget;
-    if (trial.verdict == MpecVerdict::kCancelled || (cancelled_ && cancelled_())) {
+      trial.verdict = sentences::kBeyondTarget;
+    if (trial.verdict == sentences::kAccepted && MayMissTarget(from, to)) trial.verdict = sentences::kBeyondTarget;
+    if (trial.verdict == sentences::kCancelled || (cancelled_ && cancelled_())) {
       advance.end = {EndReason::kCancelled, {{sentences::kCancelled}}};
       return advance;
     }
     if (options_.on_trial)
       options_.on_trial({length,
-                         SentenceOf(trial.verdict),
+                         trial.verdict,
                          {},
                          {{"reached", to.u.size() > 0 ? Distance(from, to) : 0.0},
                           {"regularisation", trial.increment.regularisation},
                           {"exact", trial.increment.exact ? 1.0 : 0.0},
                           {"ipopt_iterations", iterations_},
                           {"largest_residual", trial.residuals.Largest()}}});
-    if (trial.verdict != MpecVerdict::kAccepted) {
+    if (trial.verdict != sentences::kAccepted) {
       // Shorter increments fail for reasons that follow from the first one.
       if (!first) first = trial.verdict;
       length *= 0.5;
       if (length >= options_.smallest_step) continue;
-      advance.end = {EndReason::kStepTooSmall, {{sentences::kNoIncrement}, {SentenceOf(*first)}}};
+      advance.end = {EndReason::kStepTooSmall, {{sentences::kNoIncrement}, {*first}}};
       return advance;
     }
 

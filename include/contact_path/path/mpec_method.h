@@ -10,6 +10,7 @@
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/mpec/ipopt_solver.h"
+#include "contact_path/path/sentences.h"
 #include "contact_path/path/trace.h"
 
 namespace contact_path {
@@ -31,22 +32,6 @@ struct MpecOptions {
   static MpecOptions For(const TraceOptions& options, double growth);
 };
 
-// Of a trial: accepted, or why not. In the order of the sentences that say so.
-enum class MpecVerdict {
-  kAccepted,
-  kCancelled,
-  kNotSolved,
-  kResidual,
-  kContradiction,
-  kTooLong,
-  kNoProgress,
-  kWrongDirection,
-  kTurnedBack,
-  kBackAtRest,
-  kNotConfirmed,
-  kBeyondTarget
-};
-
 class MpecMethod : public PathMethod {
  public:
   // model must outlive the method. cancelled may be empty.
@@ -60,7 +45,7 @@ class MpecMethod : public PathMethod {
 
  private:
   struct Trial {
-    MpecVerdict verdict = MpecVerdict::kNotSolved;
+    sentences::Sentence verdict = sentences::kNotSolved;  // kAccepted, or why not
     IncrementTrial increment;
     Residuals residuals;
   };
