@@ -18,6 +18,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contact_path/path/csv.h"
@@ -65,8 +66,8 @@ std::string OneWord(std::string text) {
 }
 
 // The kinds of the parameters. Throws InvalidRequest in the words of a study.
-std::vector<FieldKind> CheckArguments(const Arguments& arguments, const TraceRequest& request) {
-  std::vector<FieldKind> kinds;
+std::vector<std::string_view> CheckArguments(const Arguments& arguments, const TraceRequest& request) {
+  std::vector<std::string_view> kinds;
   std::vector<std::string> keys;
   for (const std::string& path : arguments.parameters) {
     const std::size_t place = keys.size();
@@ -195,9 +196,9 @@ class Server {
 void Serve(const Arguments& arguments) {
   const pid_t client = getppid();  // as long as it is there
   const TraceRequest request = ReadTraceRequestFile(arguments.scene_file);
-  const std::vector<FieldKind> kinds = CheckArguments(arguments, request);
+  const std::vector<std::string_view> kinds = CheckArguments(arguments, request);
   std::cout << "ready\t" << CONTACT_PATH_VERSION;
-  for (const FieldKind kind : kinds) std::cout << '\t' << ToString(kind);
+  for (const std::string_view kind : kinds) std::cout << '\t' << kind;
   std::cout << std::endl;
 
   const Server server(arguments, request, client);

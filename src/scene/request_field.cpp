@@ -129,24 +129,13 @@ class Walk {
 };
 
 template <typename T>
-constexpr FieldKind KindOf() {
-  if constexpr (std::is_same_v<T, double>) return FieldKind::kNumber;
-  if constexpr (std::is_same_v<T, int>) return FieldKind::kInteger;
-  if constexpr (std::is_same_v<T, bool>) return FieldKind::kTruth;
-  return FieldKind::kText;
+constexpr std::string_view KindOf() {
+  if constexpr (std::is_same_v<T, double>) return "number";
+  if constexpr (std::is_same_v<T, int>) return "integer";
+  return std::is_same_v<T, bool> ? "truth" : "text";
 }
 
 }  // namespace
-
-std::string_view ToString(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::kNumber: return "number";
-    case FieldKind::kInteger: return "integer";
-    case FieldKind::kTruth: return "truth";
-    case FieldKind::kText: return "text";
-  }
-  return "unknown";  // not an enumerator
-}
 
 FoundField FindField(std::string_view path, const TraceRequest& request) {
   FoundField found;

@@ -85,11 +85,11 @@ TEST(FindField, GivesAllPathsToAFieldOneKey) {
 }
 
 TEST(FindField, TellsTheKind) {
-  EXPECT_EQ(FindField("nodes.b.x", MakeRequest()).kind, FieldKind::kNumber);
-  EXPECT_EQ(FindField("options.max_increments", MakeRequest()).kind, FieldKind::kInteger);
-  EXPECT_EQ(FindField("nodes.b.fixed_x", MakeRequest()).kind, FieldKind::kTruth);
-  EXPECT_EQ(FindField("options.method", MakeRequest()).kind, FieldKind::kText);
-  EXPECT_EQ(FindField("nodes.b.name", MakeRequest()).kind, FieldKind::kText);
+  EXPECT_EQ(FindField("nodes.b.x", MakeRequest()).kind, "number");
+  EXPECT_EQ(FindField("options.max_increments", MakeRequest()).kind, "integer");
+  EXPECT_EQ(FindField("nodes.b.fixed_x", MakeRequest()).kind, "truth");
+  EXPECT_EQ(FindField("options.method", MakeRequest()).kind, "text");
+  EXPECT_EQ(FindField("nodes.b.name", MakeRequest()).kind, "text");
 }
 
 TEST(FindField, SaysWhatAPathMustDo) {

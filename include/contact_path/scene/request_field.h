@@ -12,14 +12,9 @@ namespace contact_path {
 // A path is made of words between points. It begins with a field of the scene, with "options" or with "program"; then
 // follow fields of parts, and elements of lists: by the name of the part, or by their place, from 0.
 
-enum class FieldKind { kNumber, kInteger, kTruth, kText };  // kText: a word of an enumeration, too
-
-// "number", "integer", "truth", "text".
-std::string_view ToString(FieldKind kind);
-
 struct FoundField {
-  std::string key;  // the same for all paths to a field: "scene.bars[0].EA"
-  FieldKind kind = FieldKind::kNumber;
+  std::string key;        // the same for all paths to a field: "scene.bars[0].EA"
+  std::string_view kind;  // "number", "integer", "truth", or "text": a word of an enumeration, too
 };
 
 // Throws std::invalid_argument where the request has no such value; what() is what the path must do, with the nearest
