@@ -3,10 +3,9 @@
 #include <cmath>
 #include <cstddef>
 #include <iomanip>
-#include <locale>
-#include <sstream>
 
 #include "contact_path/path/path_summary.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -19,8 +18,7 @@ double Shown(double value, double rounding) { return std::abs(value) > rounding 
 
 void PrintBranches(const TraceRequest& request, const Increment& increment, double load_scale, std::ostream& out) {
   if (increment.event.branches.empty() && increment.event.number == 0) return;
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
+  std::ostringstream text = ClassicStream();
   if (increment.event.number > 0) text << "event " << increment.event.number << ", ";
   text << "increment " << increment.index << ", " << ToString(increment.kind) << " at load factor "
        << LoadFactorText(increment.load_factor, load_scale)

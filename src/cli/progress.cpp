@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <iomanip>
-#include <locale>
-#include <sstream>
 #include <utility>
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 namespace {
@@ -22,16 +21,10 @@ constexpr char kWipeLine[] = "\r\x1b[K";  // ANSI: to the first column, erase to
 constexpr double kLeastFraction = 0.02;
 constexpr double kLeastSeconds = 3.0;
 
-std::ostringstream NewLine() {
-  std::ostringstream line;
-  line.imbue(std::locale::classic());
-  return line;
-}
-
 // "2:05", "3:00:10".
 std::string InMinutes(double seconds) {
   const auto whole = std::lround(seconds);
-  std::ostringstream text = NewLine();
+  std::ostringstream text = ClassicStream();
   text << std::setfill('0');
   if (whole >= 3600) text << whole / 3600 << ':' << std::setw(2);
   text << whole / 60 % 60 << ':' << std::setw(2) << whole % 60;
@@ -70,14 +63,14 @@ void Progress::Wipe() {
 
 std::string Progress::Summary(const TraceResult& result) const {
   const double seconds = std::chrono::duration<double>(clock_() - begin_).count();
-  std::ostringstream line = NewLine();
+  std::ostringstream line = ClassicStream();
   line << summary_.ToText(ToString(result.reason), result.message) << "; " << std::fixed << std::setprecision(2)
        << seconds << " s";
   return line.str();
 }
 
 void Progress::Draw(const Increment& increment, double done) {
-  std::ostringstream line = NewLine();
+  std::ostringstream line = ClassicStream();
   line << kWipeLine;
   if (estimate_.HasEnd()) {
     const auto filled = static_cast<std::size_t>(done * kBarWidth);

@@ -2,13 +2,12 @@
 
 #include <cstdint>
 #include <iomanip>
-#include <locale>
-#include <sstream>
 #include <utility>
 
 #include "cli/json_fields.h"
 #include "contact_path/path/end.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/scene/write_scene.h"
 
 namespace contact_path {
@@ -16,8 +15,7 @@ namespace contact_path {
 std::string HashOf(const TraceRequest& request) {
   std::uint64_t hash = 14695981039346656037U;
   for (const char byte : WriteTraceRequest(request)) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
+  std::ostringstream text = ClassicStream();
   text << std::hex << std::setfill('0') << std::setw(16) << hash;
   return text.str();
 }

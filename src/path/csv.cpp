@@ -2,13 +2,13 @@
 
 #include <cstddef>
 #include <limits>
-#include <locale>
 #include <ostream>
 #include <type_traits>
 #include <utility>
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 namespace {
@@ -21,13 +21,6 @@ std::string_view Cell(ContactState state) { return ToString(state); }
 bool AllFields(std::string_view) { return true; }
 
 }  // namespace
-
-std::ostringstream NewCsvLine() {
-  std::ostringstream line;
-  line.imbue(std::locale::classic());
-  line.precision(std::numeric_limits<double>::max_digits10);
-  return line;
-}
 
 CsvWriter::CsvWriter(const TraceRequest& given) {
   const ExpandedRequest expanded(given);
@@ -100,7 +93,7 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
 }
 
 void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
-  std::ostringstream line = NewCsvLine();
+  std::ostringstream line = ClassicStream(std::numeric_limits<double>::max_digits10);
   for (const Column& column : columns_) {
     if (&column != &columns_.front()) line << ',';
     column.write(increment, line);

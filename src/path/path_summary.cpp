@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iomanip>
-#include <locale>
-#include <sstream>
 
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
 constexpr std::size_t kPointsListed = 10;
-
-std::ostringstream NewText() {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  return text;
-}
 
 std::string Counted(int count, const char* what) {
   return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
@@ -29,9 +21,7 @@ std::string Counted(int count, const char* what) {
 
 std::string LoadFactorText(double load_factor, double scale) {
   if (std::abs(load_factor) <= tolerances::kRounding * scale) return "0";
-  std::ostringstream text = NewText();
-  text << std::setprecision(10) << load_factor;
-  return text.str();
+  return RoundedText(load_factor, 10);
 }
 
 void PathSummary::Add(const Increment& increment) {
@@ -48,7 +38,7 @@ void PathSummary::Add(const Increment& increment) {
 }
 
 std::string PathSummary::Listed(const std::vector<CriticalPoint>& points) const {
-  std::ostringstream text = NewText();
+  std::ostringstream text = ClassicStream();
   const std::size_t listed = std::min(points.size(), kPointsListed);
   for (std::size_t i = 0; i < listed; ++i)
     text << (i == 0 ? "" : ", ") << ToString(points[i].kind) << " at load factor "

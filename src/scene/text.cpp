@@ -1,10 +1,8 @@
 #include "contact_path/scene/text.h"
 
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <locale>
-#include <sstream>
 
 namespace contact_path {
 namespace {
@@ -55,10 +53,16 @@ std::string NumberText(double value) {
   return text;
 }
 
-std::string RoundedText(double value, int digits) {
+std::ostringstream ClassicStream(int digits) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out << std::setprecision(digits) << value;
+  out.precision(digits);
+  return out;
+}
+
+std::string RoundedText(double value, int digits) {
+  std::ostringstream out = ClassicStream(digits);
+  out << value;
   return out.str();
 }
 

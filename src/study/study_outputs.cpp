@@ -1,7 +1,7 @@
 #include "contact_path/study/study_outputs.h"
 
 #include <algorithm>
-#include <sstream>
+#include <limits>
 #include <utility>
 
 #include "contact_path/path/csv.h"
@@ -9,15 +9,12 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 namespace {
 
-std::string TextOf(double number) {
-  std::ostringstream text = NewCsvLine();
-  text << number;
-  return text.str();
-}
+std::string TextOf(double number) { return RoundedText(number, std::numeric_limits<double>::max_digits10); }
 
 std::string Joined(const std::vector<double>& numbers) {
   std::string text;

@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <iosfwd>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,10 +49,6 @@ inline constexpr CsvColumn kCsvColumns[] = {
     {CsvColumn::Place::kOfChecks, "landing_robust",
      [](const Increment& of) { return of.jump.landing_robust ? 1.0 : 0.0; }},
 };
-
-// A line in the making: the same bytes whatever the locale and the format flags of the stream it ends up in, doubles
-// with 17 significant digits.
-std::ostringstream NewCsvLine();
 
 // Columns: index, load_factor, arc_length, kind, x_<node>, y_<node>, ..., gap_<contact>, rn_<contact>, rt_<contact>,
 // state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time;

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_SCENE_TEXT_H_
 
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,9 @@ std::string OneLine(const std::string& text);
 
 // The shortest text that reads back as `value`, in YAML's spelling: ".inf", ".nan". The same whatever the locale.
 std::string NumberText(double value);
+
+// A text in the making, which is the same whatever the locale: numbers have so many digits.
+std::ostringstream ClassicStream(int digits = 6);
 
 // `value` in so many digits, as in 1.2e-12: for a person. The same whatever the locale.
 std::string RoundedText(double value, int digits = 2);
