@@ -142,10 +142,7 @@ class FromMessages {
     if (const std::optional<Enum> value = ParseWord<Enum>(word)) {
       *to = *value;
     } else if (violations_.size() < kMostViolations) {
-      Violation& violation = violations_.emplace_back();
-      violation.key = path.ToString();
-      violation.value = word;
-      violation.rule = WordRule<Enum>(word);
+      violations_.push_back({path.ToString(), word, WordRule<Enum>(word)});
     }
   }
 

@@ -13,11 +13,7 @@ namespace contact_path {
 namespace {
 
 [[noreturn]] void Refuse(const std::string& key, const std::string& value, const std::string& rule) {
-  Violation violation;
-  violation.key = key;
-  violation.value = value;
-  violation.rule = rule;
-  throw InvalidRequest({violation});
+  throw InvalidRequest(std::vector<Violation>{{key, value, rule}});
 }
 
 template <typename T>

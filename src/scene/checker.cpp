@@ -50,10 +50,7 @@ bool Checker::HasFreeComponent() const {
 }
 
 void Checker::Add(const KeyPath& path, std::string value, std::string rule) {
-  Violation violation;
-  violation.key = path.ToString();
-  violation.value = std::move(value);
-  violation.rule = std::move(rule);
+  Violation violation{path.ToString(), std::move(value), std::move(rule)};
   // The nodes of a group share their load.
   if (!violations_.empty() && violations_.back().ToLine() == violation.ToLine()) return;
   violations_.push_back(std::move(violation));
@@ -80,8 +77,7 @@ void Checker::CheckText(const KeyPath& key, const std::string& text, TextKind ki
                         std::unordered_set<std::string>* earlier) {
   const auto name_one = [&](std::optional<std::size_t> place, const std::string& what, const auto& parts) {
     if (place) return;
-    NearestName nearest(text);
-    for (const auto& part : parts) nearest.Offer(part.name);
+    const NearestName nearest = NearestOf(text, parts, [](const auto& part) { return part.name; });
     Add(key, TextOrQuotes(text), "must name " + what + " of the scene" + nearest.Question());
   };
   switch (kind) {

@@ -7,15 +7,6 @@
 namespace contact_path {
 namespace {
 
-double NumberOf(const Obstacle& obstacle, std::string_view name) {
-  double number = 0.0;
-  ForEachField<Obstacle>([&](const auto& field) {
-    if constexpr (std::is_same_v<typename std::decay_t<decltype(field)>::Value, double>)
-      if (field.name == name) number = obstacle.*field.member;
-  });
-  return number;
-}
-
 // Whether all its numbers are finite and not too large.
 bool HasSoundNumbers(const Obstacle& obstacle) {
   bool sound = true;
@@ -47,8 +38,7 @@ void ContactRules::CheckObstacles() {
       usable_obstacles_.insert(&obstacle);
       if (obstacle.shape != ObstacleShape::kHalfPlane) surfaces_.emplace(&obstacle, MakeSurface(obstacle));
     } else if (sound || obstacle.shape == ObstacleShape::kHalfPlane) {
-      checker_.Add(list[i].Key(fault.field),
-                   fault.value.empty() ? NumberText(NumberOf(obstacle, fault.field)) : fault.value, fault.rule);
+      checker_.Add(list[i].Key(fault.field), fault.value, fault.rule);
     }
   }
 }

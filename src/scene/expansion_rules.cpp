@@ -157,8 +157,7 @@ class GroupRules {
 
   void CheckSurfaceName(const KeyPath& path, const std::string& surface) {
     if (surfaces_.count(surface) > 0) return;
-    NearestName nearest(surface);
-    for (const BoundarySurface& known : scene_.surfaces) nearest.Offer(known.name);
+    const NearestName nearest = NearestOf(surface, scene_.surfaces, &BoundarySurface::name);
     checker_.Add(path.Key("surface"), surface, "must name a surface of the scene" + nearest.Question());
   }
 

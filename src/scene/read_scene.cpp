@@ -116,12 +116,7 @@ class Reader {
   }
 
   void Add(int line, const KeyPath& path, const YamlValue& value, std::string rule) {
-    Violation violation;
-    violation.key = path.ToString();
-    violation.value = Show(value);
-    violation.rule = std::move(rule);
-    violation.line = line;
-    violations_.push_back(std::move(violation));
+    violations_.push_back({path.ToString(), Show(value), std::move(rule), {}, line});
   }
 
   void WrongType(const YamlValue& value, const KeyPath& path, std::string rule) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <sstream>
 
 #include "contact_path/geometry/curve.h"
 #include "contact_path/geometry/polyline.h"
 #include "contact_path/geometry/spline.h"
+#include "contact_path/scene/text.h"
 #include "scene/input_bounds.h"
 
 namespace contact_path {
@@ -16,12 +16,7 @@ namespace {
 
 constexpr double kFilletShare = 0.1;  // of the largest fillet, where none is given
 
-std::string Text(double value) {
-  std::ostringstream text;
-  text.precision(12);
-  text << value;
-  return text.str();
-}
+std::string Text(double value) { return RoundedText(value, 12); }
 
 std::string Text(const Eigen::Vector2d& point) { return "[" + Text(point.x()) + ", " + Text(point.y()) + "]"; }
 
@@ -77,7 +72,8 @@ ShapeFault FindPolylineFault(const Obstacle& obstacle, const PlanePoints& points
   const double largest = LargestFillet(points, obstacle.closed);
   if (largest == 0.0) return {"points", "an edge must not lead straight back", "a corner"};
   if (obstacle.fillet > (1.0 + kCancelled) * largest)
-    return {"fillet", "must be at most " + Text(largest) + ": the edges have no room for larger fillets"};
+    return {"fillet", "must be at most " + Text(largest) + ": the edges have no room for larger fillets",
+            NumberText(obstacle.fillet)};
   return {};
 }
 
@@ -87,10 +83,11 @@ ShapeFault FindShapeFault(const Obstacle& obstacle) {
   switch (obstacle.shape) {
     case ObstacleShape::kHalfPlane:
       if (std::hypot(obstacle.nx, obstacle.ny) < kSmallestInput)  // false for a normal that is not finite
-        return {"nx", "the normal (nx, ny) must not be zero (length at least 1e-100)"};
+        return {"nx", "the normal (nx, ny) must not be zero (length at least 1e-100)", NumberText(obstacle.nx)};
       return {};
     case ObstacleShape::kCircle:
-      if (!(obstacle.radius >= kSmallestInput)) return {"radius", "must be > 0 where the shape is circle"};
+      if (!(obstacle.radius >= kSmallestInput))
+        return {"radius", "must be > 0 where the shape is circle", NumberText(obstacle.radius)};
       return {};
     case ObstacleShape::kPolyline:
     case ObstacleShape::kSpline: break;

@@ -29,11 +29,7 @@ constexpr std::size_t kDeepestYaml = 64;                      // lists and maps 
 
 // Refuses a file as a whole or from `line` on (0 = unknown).
 [[noreturn]] inline void Refuse(const std::string& file, int line, std::string rule) {
-  Violation violation;
-  violation.rule = std::move(rule);
-  violation.file = file;
-  violation.line = line;
-  throw InvalidRequest({std::move(violation)});
+  throw InvalidRequest({{"", "", std::move(rule), file, line}});
 }
 
 inline std::string TooManyValues() { return "must have at most " + std::to_string(kMostYamlValues) + " values"; }

@@ -15,7 +15,7 @@ namespace contact_path {
 struct ShapeFault {
   std::string_view field;  // of the obstacle; empty: there is no fault
   std::string rule;        // what must hold
-  std::string value = {};  // that breaks it; empty: the number in the field
+  std::string value;       // that breaks it
 };
 
 // Of numbers that keep the rules of their fields.

@@ -13,11 +13,11 @@ namespace contact_path {
 
 // One broken rule.
 struct Violation {
-  std::string key;    // where in the request, e.g. "scene.bars[0].EA"
-  std::string value;  // what stands there
-  std::string rule;   // what must hold
-  std::string file;   // empty for a request that is not from a file
-  int line = 0;       // in the file, from 1; 0 = unknown
+  std::string key;        // where in the request, e.g. "scene.bars[0].EA"
+  std::string value;      // what stands there
+  std::string rule;       // what must hold
+  std::string file = {};  // empty for a request that is not from a file
+  int line = 0;           // in the file, from 1; 0 = unknown
 
   // One line: "FILE:LINE: KEY = VALUE: RULE", without what is not known.
   std::string ToLine() const;
