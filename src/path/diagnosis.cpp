@@ -91,7 +91,7 @@ Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::v
   double smallest = tolerances::kSmallShare;
   Causes found;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-    const std::vector<PlacedSolidElement> elements =
+    const std::vector<PlacedElement> elements =
         MakeSolidElements(scene.solids[i], scene, index, Configuration::Of(scene).reference);
     for (std::size_t k = 0; k < elements.size(); ++k) {
       std::vector<double> x;

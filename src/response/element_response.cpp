@@ -8,13 +8,6 @@
 namespace contact_path {
 namespace {
 
-std::vector<int> ComponentsOf(const Element& element, const std::vector<int>& nodes, const DofMap& dofs) {
-  std::vector<int> components;
-  for (const LocalDof& local : element.Dofs())
-    components.push_back(dofs.Index(nodes[static_cast<std::size_t>(local.node)], local.field, local.component));
-  return components;
-}
-
 template <typename Placed>
 Eigen::VectorXd ValuesOf(const Placed& placed, const Eigen::VectorXd& values) {
   Eigen::VectorXd own(static_cast<Eigen::Index>(placed.components.size()));
@@ -56,15 +49,18 @@ ElementResponse::ElementResponse(const Scene& scaled, const SceneIndex& index, c
   Scene slender = scaled;
   slender.superelements.clear();
   slender.solids.clear();
-  for (PlacedElement& placed : MakeElements(slender, index, configuration.reference)) {
-    std::vector<int> components = ComponentsOf(*placed.element, placed.nodes, dofs);
-    sections_.push_back({std::move(placed.element), std::move(components)});
-  }
-  for (const Solid& solid : scaled.solids)
-    for (PlacedSolidElement& placed : MakeSolidElements(solid, scaled, index, configuration.reference)) {
-      std::vector<int> components = ComponentsOf(*placed.element, placed.nodes, dofs);
-      elements_.push_back({std::move(placed.element), std::move(components)});
+  const auto place = [&dofs](std::vector<PlacedElement> elements, std::vector<Placed>* to) {
+    for (PlacedElement& placed : elements) {
+      std::vector<int> components;
+      for (const LocalDof& local : placed.element->Dofs())
+        components.push_back(
+            dofs.Index(placed.nodes[static_cast<std::size_t>(local.node)], local.field, local.component));
+      to->push_back({std::move(placed.element), std::move(components)});
     }
+  };
+  place(MakeElements(slender, index, configuration.reference), &sections_);
+  for (const Solid& solid : scaled.solids)
+    place(MakeSolidElements(solid, scaled, index, configuration.reference), &elements_);
 }
 
 std::vector<SectionForces> ElementResponse::Sections(const Eigen::VectorXd& values) const {

@@ -13,10 +13,42 @@
 #include "contact_path/structure/bar.h"
 #include "contact_path/structure/beam.h"
 #include "contact_path/structure/material.h"
-#include "contact_path/structure/superelement.h"
+#include "contact_path/structure/solid.h"
 
 namespace contact_path {
 namespace {
+
+// Linear part: W = (x - X)' K (x - X) / 2 with constant symmetric K.
+class LinearSuperelement : public Element {
+ public:
+  // stiffness K: 2n x 2n, symmetric [force/length]; initial positions X: 2n [length].
+  LinearSuperelement(Eigen::MatrixXd stiffness, Eigen::VectorXd initial)
+      : stiffness_(std::move(stiffness)),
+        initial_(std::move(initial)),
+        dofs_(PositionsOfNodes(static_cast<int>(initial_.size() / kPositionComponents))) {}
+
+  const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  bool Linear() const override { return true; }
+  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+    return 0.5 * (x - initial_).dot(stiffness_ * (x - initial_));
+  }
+  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
+    force.setZero();
+    for (Eigen::Index i = 0; i < x.size(); ++i) force += (x[i] - initial_[i]) * stiffness_.col(i);
+  }
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
+    tangent = stiffness_;
+  }
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>&, const Eigen::Ref<const Eigen::VectorXd>&,
+                         Eigen::Ref<Eigen::MatrixXd> derivative) const override {
+    derivative.setZero();
+  }
+
+ private:
+  Eigen::MatrixXd stiffness_;
+  Eigen::VectorXd initial_;
+  std::vector<LocalDof> dofs_;
+};
 
 // Places of the nodes of an element in the reference shape.
 Eigen::VectorXd PositionsOf(const std::vector<int>& nodes, const std::vector<double>& reference) {
@@ -61,16 +93,16 @@ void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<do
 
 }  // namespace
 
-std::vector<PlacedSolidElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
-                                                  const std::vector<double>& reference) {
+std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
+                                             const std::vector<double>& reference) {
   const PlaneMaterial material(scene.materials[index.Material(solid.material)], solid.plane);
-  std::vector<PlacedSolidElement> elements;
+  std::vector<PlacedElement> elements;
   std::vector<int> nodes;
   for (const std::string& name : solid.nodes) {
     nodes.push_back(static_cast<int>(index.Node(name)));
     if (nodes.size() < solid.NodesPerElement()) continue;
     const Eigen::VectorXd positions = PositionsOf(nodes, reference);
-    std::unique_ptr<const SolidElement> element =
+    std::unique_ptr<const Element> element =
         MakeSolidElement(material, solid.Thickness(), {positions.begin(), positions.end()});
     elements.push_back({std::move(element), std::exchange(nodes, {})});
   }
@@ -83,8 +115,7 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
     for (const auto& part : parts) {
       if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Solid>) {
-        for (PlacedSolidElement& own : MakeSolidElements(part, scene, index, reference))
-          elements.push_back({std::move(own.element), std::move(own.nodes)});
+        for (PlacedElement& own : MakeSolidElements(part, scene, index, reference)) elements.push_back(std::move(own));
       } else {
         std::vector<int> nodes;
         for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));

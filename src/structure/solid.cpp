@@ -14,7 +14,7 @@ namespace {
 using Gradient = PlaneMaterial::Gradient;
 
 template <int kNodes, std::size_t kPoints>
-class SolidOf : public SolidElement {
+class SolidOf : public Element {
  public:
   SolidOf(const PlaneMaterial& material, double thickness, const std::vector<double>& positions) : material_(material) {
     const std::vector<PlacedPoint> points = PlacePoints(positions);
@@ -138,8 +138,8 @@ class SolidOf : public SolidElement {
 
 }  // namespace
 
-std::unique_ptr<const SolidElement> MakeSolidElement(const PlaneMaterial& material, double thickness,
-                                                     const std::vector<double>& positions) {
+std::unique_ptr<const Element> MakeSolidElement(const PlaneMaterial& material, double thickness,
+                                                const std::vector<double>& positions) {
   switch (positions.size() / 2) {
     case 3: return std::make_unique<SolidOf<3, 1>>(material, thickness, positions);
     case 4: return std::make_unique<SolidOf<4, 4>>(material, thickness, positions);

@@ -14,7 +14,6 @@
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/dof_map.h"
 #include "contact_path/structure/element.h"
-#include "contact_path/structure/solid.h"
 
 namespace contact_path {
 
@@ -53,15 +52,14 @@ class ElementResponse {
   std::vector<SolidStress> Stresses(const Eigen::VectorXd& values) const;
 
  private:
-  template <typename ElementType>
   struct Placed {
-    std::unique_ptr<const ElementType> element;
+    std::unique_ptr<const Element> element;
     std::vector<int> components;  // by local dof: into the values
   };
 
   Scaling scaling_;
-  std::vector<Placed<Element>> sections_;
-  std::vector<Placed<SolidElement>> elements_;
+  std::vector<Placed> sections_;
+  std::vector<Placed> elements_;
 };
 
 }  // namespace contact_path

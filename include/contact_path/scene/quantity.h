@@ -44,7 +44,7 @@ struct Quantity {
     kM,   // .M
     kM1,  // .M1
     kM2,  // .M2
-    // <solid>.<element>.sxx, or sxx_<solid>.<element>: of an element of a solid (structure/solid.h)
+    // <solid>.<element>.sxx, or sxx_<solid>.<element>: of an element of a solid (structure/element.h)
     kSxx,
     kSyy,     // .syy
     kSxy,     // .sxy

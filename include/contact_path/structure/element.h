@@ -17,7 +17,24 @@ struct LocalDof {
 };
 
 // The positions of so many nodes: x0, y0, x1, y1, ...
-std::vector<LocalDof> PositionsOfNodes(int num_nodes);
+inline std::vector<LocalDof> PositionsOfNodes(int num_nodes) {
+  std::vector<LocalDof> dofs;
+  for (int node = 0; node < num_nodes; ++node)
+    for (int component = 0; component < kPositionComponents; ++component)
+      dofs.push_back({node, Field::kPosition, component});
+  return dofs;
+}
+
+// Of an element of a solid: means of Cauchy's stress over its current volume [force/length^2], and its strain energy
+// [force length].
+struct SolidStress {
+  double sxx = 0.0;
+  double syy = 0.0;
+  double sxy = 0.0;
+  double szz = 0.0;    // across the plane
+  double mises = 0.0;  // of these means
+  double energy = 0.0;
+};
 
 // Values, forces and directions are ordered as Dofs(), m entries; the force of a rotation is a moment [force length].
 // A configuration in which the energy is not smooth (a Biot or logarithmic bar of zero length, a solid turned
@@ -32,6 +49,8 @@ class Element {
   // The smallest ratio of a current area to its initial one, over the integration points; an element with a ratio <= 0
   // is turned inside out, and its energy is not finite. 1 for an element without an area.
   virtual double AreaRatio(const Eigen::Ref<const Eigen::VectorXd>&) const { return 1.0; }
+  // Of an element of a solid; of another one zeros.
+  virtual SolidStress MeanStress(const Eigen::Ref<const Eigen::VectorXd>&) const { return {}; }
   // W(x) [force length].
   virtual double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const = 0;
   // force = dW/dx, m [force].

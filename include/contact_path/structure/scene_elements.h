@@ -8,7 +8,6 @@
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/element.h"
-#include "contact_path/structure/solid.h"
 
 namespace contact_path {
 
@@ -21,14 +20,9 @@ struct PlacedElement {
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
                                         const std::vector<double>& reference);
 
-struct PlacedSolidElement {
-  std::unique_ptr<const SolidElement> element;
-  std::vector<int> nodes;
-};
-
 // Of one solid of the scene, in the order of its nodes.
-std::vector<PlacedSolidElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
-                                                  const std::vector<double>& reference);
+std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
+                                             const std::vector<double>& reference);
 
 }  // namespace contact_path
 
