@@ -14,7 +14,6 @@
 #include "contact_path/ros/convert.h"
 #include "contact_path/scene/text.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 
 namespace contact_path {

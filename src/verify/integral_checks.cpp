@@ -1,4 +1,4 @@
-#include "verify/integral_checks.h"
+#include "verify/checks.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "verify/point_checks.h"
+#include "verify/checks.h"
 
 #include <algorithm>
 #include <array>

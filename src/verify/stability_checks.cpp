@@ -1,4 +1,4 @@
-#include "verify/stability_checks.h"
+#include "verify/checks.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

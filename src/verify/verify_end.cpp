@@ -1,4 +1,4 @@
-#include "contact_path/verify/verify_end.h"
+#include "contact_path/verify/verify_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
-#include "contact_path/verify/verify_path.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {

@@ -7,9 +7,7 @@
 #include "contact_path/path/increment_lists.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
-#include "verify/integral_checks.h"
-#include "verify/point_checks.h"
-#include "verify/stability_checks.h"
+#include "verify/checks.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {

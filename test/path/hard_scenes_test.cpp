@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
-#include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"

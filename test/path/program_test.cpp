@@ -9,7 +9,6 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"

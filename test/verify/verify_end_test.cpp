@@ -1,4 +1,4 @@
-#include "contact_path/verify/verify_end.h"
+#include "contact_path/verify/verify_path.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,6 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/verify/verify_end.h"
 #include "support/traced_path.h"
 
 namespace contact_path::verify_path_test {

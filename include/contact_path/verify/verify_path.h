@@ -1,10 +1,12 @@
-// Whether a recorded path is what it says it is: every number that can be computed anew from the scene, is.
+// Whether a recorded path is what it says it is: every number that can be computed anew from the scene, is; and whether
+// it can have ended for the reason that its record gives.
 #ifndef CONTACT_PATH_VERIFY_VERIFY_PATH_H_
 #define CONTACT_PATH_VERIFY_VERIFY_PATH_H_
 
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
@@ -74,6 +76,14 @@ bool AtTarget(const TraceRequest& request, const Increment& increment);
 // stiffest: by stage, the force of the stiffest node for a motion of L, over F: the load is known to its rounding.
 void VerifyEvents(const TraceRequest& request, const std::vector<Increment>& increments,
                   const std::vector<double>& stiffest, std::vector<Finding>* findings);
+
+// What speaks against it, in a line; empty: nothing does. reason: "stop_criterion", ..., of a trace whose increments
+// these are. Looked at: stop_criterion (one holds in the last increment, or the program is done), max_increments (their
+// number), path_end (no branch is taken from the last increment, and mpec cannot tell that; or no contact is left, and
+// the load is zero or beyond minus its target) and closed_path (an earlier increment of the stage has the state of the
+// last one).
+std::string EndContradicted(const TraceRequest& request, const std::vector<Increment>& increments,
+                            std::string_view reason);
 
 }  // namespace contact_path
 

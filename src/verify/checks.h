@@ -1,10 +1,16 @@
-// What must hold between the recorded states of an arc: arc length, work, dissipation, and the balance of energies.
-#ifndef CONTACT_PATH_SRC_VERIFY_INTEGRAL_CHECKS_H_
-#define CONTACT_PATH_SRC_VERIFY_INTEGRAL_CHECKS_H_
+// What recorded increments must fulfil: each state by itself, what lies between the states of an arc, and verdicts of
+// stability.
+#ifndef CONTACT_PATH_SRC_VERIFY_CHECKS_H_
+#define CONTACT_PATH_SRC_VERIFY_CHECKS_H_
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <vector>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/increment.h"
@@ -12,6 +18,38 @@
 #include "verify/verified_stage.h"
 
 namespace contact_path {
+
+// Residuals, supports, gaps, contact states and recorded numbers of the increments of one stage.
+class PointChecks {
+ public:
+  // All must outlive the checks.
+  PointChecks(const VerifiedStage& stage, Findings* findings, Verification* result)
+      : stage_(stage), findings_(*findings), result_(*result) {}
+
+  // before: the last increment that has its state; null: there is none.
+  void Check(const Increment* before, const Increment& increment);
+
+ private:
+  // What holds for inner states, too. in_one_piece: what happened since `before` is one arc of the path.
+  void CheckState(const Increment& before, const Increment& at, bool in_one_piece, const Residuals& residuals);
+  void CheckInner(const Increment& before, const Increment& increment);
+  // Numbers of the increment that follow from its state. with_law: the residual of the friction law, too.
+  void CheckRecorded(const Increment& increment, const Residuals& residuals, bool with_law);
+  // Forces of supports and boundaries, and what elements and contacts bear.
+  void CheckForces(const Increment& increment);
+  void CheckSupports(const Increment& at);
+  // Gap and state of a contact. slip: what the law of friction is about, over L. Tolerances: scaled.
+  void CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& state, double slip,
+                    double tolerance, double tolerance_of_slip);
+  // Equilibrium across the surfaces and the laws of reactions where F is no measure of them.
+  void CheckSoftContacts(const Increment& increment);
+  // Where reactions are so small that residuals over F cannot tell: against what contacts have pushed with.
+  void CheckPull(const Increment& at);
+
+  const VerifiedStage& stage_;
+  Findings& findings_;
+  Verification& result_;
+};
 
 // Of a quantity: at the begin of the increment, at its end, and at a third state of the same arc.
 using ThreeValues = std::array<double, 3>;
@@ -114,6 +152,40 @@ class IntegralChecks {
   bool balanced_ = true;   // so far
 };
 
+// Of regular increments of structures of up to 400 components whose contacts are open, or stick to obstacles: such a
+// contact is a pin, and an equilibrium is stable if the stiffness of all other components is positive definite. Where
+// contacts slip, or touch surfaces that deform, the verdict is not looked at.
+class StabilityChecks {
+ public:
+  // All must outlive the checks.
+  StabilityChecks(const VerifiedStage& stage, Findings* findings, Verification* result);
+
+  void Check(const Increment& increment);
+
+ private:
+  // Components that are free at the increment, as CheckedState has them, then rotations; nothing where it is not
+  // covered.
+  std::optional<std::vector<std::size_t>> FreeComponents(const Increment& increment) const;
+  // Of Unbalance() by components that move together, each by its own motion; the number of all components: the load
+  // factor. step: to either side, over the unit of the component.
+  struct Change {
+    Eigen::VectorXd forces;
+    std::vector<double> motions;
+  };
+  Change ChangeBy(const Increment& increment, const std::vector<std::size_t>& components, double step) const;
+  std::size_t NodeOf(std::size_t component) const;
+  // Nodes on whose forces a node has an influence, and groups of nodes that have none on the same.
+  void FindCouplings(const Increment& increment, double step);
+  Eigen::MatrixXd Stiffness(const Increment& increment, const std::vector<std::size_t>& components, double step) const;
+
+  const VerifiedStage& stage_;
+  Findings& findings_;
+  Verification& result_;
+  std::vector<bool> of_surfaces_;  // by candidate: what it touches deforms
+  std::vector<std::set<std::size_t>> coupled_;
+  std::vector<std::vector<std::size_t>> groups_;
+};
+
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_SRC_VERIFY_INTEGRAL_CHECKS_H_
+#endif  // CONTACT_PATH_SRC_VERIFY_CHECKS_H_
