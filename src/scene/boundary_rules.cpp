@@ -1,4 +1,4 @@
-#include "scene/contact_rules.h"
+#include "scene/rules.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scene/loading_rules.h"
+#include "scene/rules.h"
 
 #include <algorithm>
 #include <array>

@@ -8,8 +8,6 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/text.h"
 #include "scene/checker.h"
-#include "scene/contact_rules.h"
-#include "scene/loading_rules.h"
 #include "scene/rules.h"
 
 namespace contact_path {
