@@ -8,7 +8,6 @@ add_library(contact_path_ros
   src/ros/limits.cpp
   src/ros/memory_share.cpp
   src/ros/node_parameters.cpp
-  src/ros/resume.cpp
   src/ros/trace_action.cpp
   src/ros/trace_service.cpp
 )
@@ -33,7 +32,6 @@ target_include_directories(contact_path_verify SYSTEM PRIVATE ${CLI11_INCLUDE_DI
 target_link_libraries(contact_path_verify PRIVATE contact_path_ros contact_path_warnings)
 
 # With ROS the command-line program can record bags.
-target_sources(contact_path_trace PRIVATE src/ros/bag_sink.cpp)
 target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
 target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
 

@@ -27,10 +27,9 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
 #ifdef CONTACT_PATH_WITH_ROS
-#include "contact_path/ros/resume.h"
+#include "contact_path/ros/bag_reader.h"
 #include "ros/bag_sink.h"
 #endif
-#include "cli/event_table.h"
 #include "cli/progress.h"
 #include "cli/trace_log.h"
 #include "process/process.h"
@@ -317,12 +316,9 @@ int main(int argc, char** argv) {
   contact_path::DeclareOptions(app, arguments);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help() << std::flush;
-    return std::cout ? contact_path::kReached : contact_path::kEndedEarly;
-  } catch (const CLI::CallForVersion& version) {
-    std::cout << version.what() << std::endl;
-    return std::cout ? contact_path::kReached : contact_path::kEndedEarly;
+  } catch (const CLI::Success& answered) {  // --help, --version
+    app.exit(answered);
+    return std::cout.flush() ? contact_path::kReached : contact_path::kEndedEarly;
   } catch (const CLI::ParseError& error) {
     contact_path::PrintError(error.what() + contact_path::OptionMeant(app));
     return contact_path::kBadInput;

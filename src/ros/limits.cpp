@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 #include <unordered_map>
+#include <utility>
 
 #include "contact_path/ros/names.h"
 #include "contact_path/scene/expand.h"
@@ -18,10 +19,6 @@ namespace {
 
 constexpr std::size_t kLongestName = std::size_t{1} << 17U;  // of a scene: it comes with each status
 constexpr std::size_t kMostBytes = std::size_t{1} << 28U;    // some times as many are taken while it is checked
-
-void CheckPositive(const std::string& name, int value) {
-  if (value <= 0) throw std::invalid_argument("~" + name + " = " + std::to_string(value) + ": must be > 0");
-}
 
 // Entries of all lists of a program, and its stages.
 std::size_t ProgramEntries(const std::vector<contact_path_msgs::Stage>& program) {
@@ -132,19 +129,17 @@ std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options, std
 }  // namespace
 
 void TraceLimits::Validate() const {
-  CheckPositive(names::kMaxNodes, max_nodes);
-  CheckPositive(names::kMaxElements, max_elements);
-  CheckPositive(names::kMaxContacts, max_contacts);
-  CheckPositive(names::kMaxIncrements, max_increments);
-  if (!(max_seconds >= 0.0) || std::isinf(max_seconds)) {
-    throw std::invalid_argument("~" + std::string(names::kMaxSeconds) + " = " + std::to_string(max_seconds) +
-                                ": must be finite and >= 0");
-  }
-  if (max_memory < 0) {
-    throw std::invalid_argument("~" + std::string(names::kMaxMemory) + " = " + std::to_string(max_memory) +
-                                ": must be >= 0");
-  }
-  CheckPositive(names::kKeepFree, keep_free);
+  const auto require = [](const char* name, auto value, bool holds, const char* rule) {
+    if (!holds)
+      throw std::invalid_argument("~" + std::string(name) + " = " + std::to_string(value) + ": must be " + rule);
+  };
+  for (const auto& [name, value] :
+       {std::pair(names::kMaxNodes, max_nodes), std::pair(names::kMaxElements, max_elements),
+        std::pair(names::kMaxContacts, max_contacts), std::pair(names::kMaxIncrements, max_increments),
+        std::pair(names::kKeepFree, keep_free)})
+    require(name, value, value > 0, "> 0");
+  require(names::kMaxSeconds, max_seconds, max_seconds >= 0.0 && !std::isinf(max_seconds), "finite and >= 0");
+  require(names::kMaxMemory, max_memory, max_memory >= 0, ">= 0");
 }
 
 std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,

@@ -14,7 +14,6 @@
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
-#include "contact_path/ros/resume.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/text.h"

@@ -1,4 +1,4 @@
-#include "contact_path/ros/bounded_stream.h"
+#include "contact_path/ros/messages.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "bytes.h"
-#include "contact_path/ros/messages.h"
 
 namespace contact_path::bounded_stream_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "contact_path/ros/goal_id.h"
+#include "contact_path/ros/messages.h"
 
 #include <cstdint>
 #include <stdexcept>
@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "bytes.h"
-#include "contact_path/ros/messages.h"
 
 namespace contact_path::goal_id_test {
 namespace {
