@@ -24,7 +24,7 @@ struct NodeMotion {
 };
 
 // gap(q) and xi(q) are the values of the surface at x(q): derivatives by x come from the projection
-// (geometry/projection.h), derivatives by q follow by the chain rule. Without a turn x(q) is affine, and of a flat
+// (geometry/surface.h), derivatives by q follow by the chain rule. Without a turn x(q) is affine, and of a flat
 // surface everything but the values is constant. Two threads must not use the same pair at once.
 class RigidPair : public ContactPair {
  public:
