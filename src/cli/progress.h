@@ -1,4 +1,5 @@
-// What a person sees of a trace on a terminal: a bar while it runs, a summary when it has ended.
+// What a person sees of a trace on a terminal: a bar while it runs, its events and the branches from each, a summary
+// when it has ended.
 #ifndef CONTACT_PATH_CLI_PROGRESS_H_
 #define CONTACT_PATH_CLI_PROGRESS_H_
 
@@ -46,6 +47,11 @@ class Progress {
   std::chrono::steady_clock::time_point drawn_;  // time of the last drawing
   bool visible_ = false;                         // the bar stands on the terminal
 };
+
+// request: expanded (scene/expand.h). Writes the branches from `increment`, a line each, best first; nothing where no
+// branches part. Of the contacts it names those that change their state, and counts the others. load_scale: of the load
+// factor, ProgramScales(request).load_factor.
+void PrintBranches(const TraceRequest& request, const Increment& increment, double load_scale, std::ostream& out);
 
 }  // namespace contact_path
 

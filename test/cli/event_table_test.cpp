@@ -1,4 +1,4 @@
-#include "cli/event_table.h"
+#include "cli/progress.h"
 
 #include <gtest/gtest.h>
 
