@@ -11,7 +11,7 @@
 #include "contact_path/branch/event_functions.h"
 #include "contact_path/branch/state_options.h"
 #include "contact_path/contact/rigid_pair.h"
-#include "contact_path/geometry/polyline.h"
+#include "contact_path/geometry/point_curves.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path::patches_test {

@@ -6,8 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "contact_path/geometry/polyline.h"
-#include "contact_path/geometry/spline.h"
+#include "contact_path/geometry/point_curves.h"
 #include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"

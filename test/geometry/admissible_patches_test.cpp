@@ -1,4 +1,4 @@
-#include "contact_path/geometry/admissible_patches.h"
+#include "contact_path/geometry/nodal_spline.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "contact_path/geometry/curve.h"
-#include "contact_path/geometry/polyline.h"
-#include "contact_path/geometry/spline.h"
+#include "contact_path/geometry/point_curves.h"
 
 namespace contact_path::outline_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "contact_path/geometry/spline.h"
+#include "contact_path/geometry/point_curves.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/geometry/admissible_patches.h"
 #include "contact_path/geometry/nodal_spline.h"
 #include "contact_path/geometry/surface.h"
 

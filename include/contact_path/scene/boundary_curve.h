@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "contact_path/geometry/admissible_patches.h"
 #include "contact_path/geometry/nodal_spline.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/solid_parts.h"

@@ -1,6 +1,6 @@
-// Polylines with rounded corners.
-#ifndef CONTACT_PATH_GEOMETRY_POLYLINE_H_
-#define CONTACT_PATH_GEOMETRY_POLYLINE_H_
+// Curves through points: polylines with rounded corners, and smooth ones.
+#ifndef CONTACT_PATH_GEOMETRY_POINT_CURVES_H_
+#define CONTACT_PATH_GEOMETRY_POINT_CURVES_H_
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -33,6 +33,11 @@ double LargestFillet(const PlanePoints& points, bool closed);
 // LargestFillet().
 std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, double fillet);
 
+// The cubic spline through the points, whose parameter grows by the distance from point to point. Its second derivative
+// by the parameter is continuous, and so is the curvature; it is zero at the ends of an open curve ("natural"). Each
+// piece from point to point is a patch. At least two points, closed three, no neighbours equal.
+std::unique_ptr<const Curve> MakeSpline(const PlanePoints& points, bool closed);
+
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_GEOMETRY_POLYLINE_H_
+#endif  // CONTACT_PATH_GEOMETRY_POINT_CURVES_H_
