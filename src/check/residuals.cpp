@@ -15,7 +15,7 @@
 #include "check/elements.h"
 #include "check/plane.h"
 #include "contact_path/scene/expand.h"
-#include "contact_path/scene/reacting_parts.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {

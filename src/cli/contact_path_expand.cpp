@@ -7,10 +7,9 @@
 
 #include "cli/json_fields.h"
 #include "cli/scene_program.h"
-#include "contact_path/scene/element_names.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/scene/reacting_parts.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {

@@ -12,7 +12,6 @@
 #include "contact_path/contact/deformable_pair.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/scene/boundary_curve.h"
-#include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/surface.h"
 
 namespace contact_path {

@@ -1,7 +1,6 @@
 #include "contact_path/path/increment_lists.h"
 
-#include "contact_path/scene/element_names.h"
-#include "contact_path/scene/reacting_parts.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 

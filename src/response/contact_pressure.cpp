@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "contact_path/scene/cell.h"
-#include "contact_path/scene/reacting_parts.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "contact_path/scene/can_slide.h"
+#include "contact_path/scene/surface.h"
 
 namespace contact_path {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "contact_path/scene/reacting_parts.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {

@@ -18,7 +18,6 @@
 #include "contact_path/scene/key_path.h"
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/validate.h"
-#include "scene/yaml_scalar.h"
 #include "scene/yaml_tree.h"
 
 namespace contact_path {

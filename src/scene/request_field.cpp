@@ -11,7 +11,7 @@
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/key_path.h"
 #include "contact_path/scene/nearest_name.h"
-#include "scene/yaml_scalar.h"
+#include "scene/yaml_tree.h"
 
 namespace contact_path {
 namespace {

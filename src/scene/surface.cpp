@@ -6,8 +6,7 @@
 #include <cstddef>
 
 #include "contact_path/geometry/curve.h"
-#include "contact_path/geometry/polyline.h"
-#include "contact_path/geometry/spline.h"
+#include "contact_path/geometry/point_curves.h"
 #include "contact_path/scene/text.h"
 #include "scene/input_bounds.h"
 

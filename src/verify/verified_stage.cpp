@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
-#include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/surface.h"
 
 namespace contact_path {
 namespace {

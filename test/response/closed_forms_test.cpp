@@ -15,7 +15,6 @@
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/quantity.h"
-#include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene_index.h"
 #include "support/beams.h"
 #include "support/traced_path.h"

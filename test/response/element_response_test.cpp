@@ -12,7 +12,6 @@
 
 #include "contact_path/path/csv.h"
 #include "contact_path/path/stop.h"
-#include "contact_path/scene/element_names.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scene_index.h"

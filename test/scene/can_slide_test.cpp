@@ -1,4 +1,4 @@
-#include "contact_path/scene/can_slide.h"
+#include "contact_path/scene/surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "contact_path/scene/element_names.h"
+#include "contact_path/scene/scene_index.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "contact_path/scene/reacting_parts.h"
+#include "contact_path/scene/scene_index.h"
 
 #include <gtest/gtest.h>
 

@@ -52,7 +52,7 @@ struct CheckedState {
 
 // What holds the structure: x, y [force] and moment [force length], on the structure.
 struct CheckedForces {
-  std::vector<std::array<double, 3>> supports;    // of SupportedNodes() (scene/reacting_parts.h); 0 in free components
+  std::vector<std::array<double, 3>> supports;    // of SupportedNodes() (scene/scene_index.h); 0 in free components
   std::vector<std::array<double, 3>> boundaries;  // of TouchedBoundaries(): sum of all contacts, the moment about the
                                                   // point p of an obstacle, or about the first node of a surface
 };

@@ -28,7 +28,7 @@ struct NodeMotion {
 // surface everything but the values is constant. Two threads must not use the same pair at once.
 class RigidPair : public ContactPair {
  public:
-  // friction: mu; 0 where the node cannot slide (scene/can_slide.h).
+  // friction: mu; 0 where the node cannot slide (scene/surface.h).
   // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
   // slip_origin: of the total law of friction, the point from whose foot slip is measured, as the obstacle sees it
   // [length]; nothing: incremental law.

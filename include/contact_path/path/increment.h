@@ -174,9 +174,9 @@ struct Increment {
   // Since the start, by node; 0 for a node that no beam turns [rad]. Empty in a scene without beams.
   std::vector<double> rotations;
   std::vector<ContactRecord> contacts;  // in scene order
-  std::vector<Resultant> supports;      // on the structure, by SupportedNodes() of the scene (scene/reacting_parts.h)
+  std::vector<Resultant> supports;      // on the structure, by SupportedNodes() of the scene (scene/scene_index.h)
   std::vector<Resultant> boundaries;    // of all contacts with it, by TouchedBoundaries() of the scene
-  // Where the request wants them, else empty: in the order of scene/element_names.h.
+  // Where the request wants them, else empty: in the order of scene/scene_index.h.
   std::vector<SectionForces> sections;
   std::vector<SolidStress> stresses;
   std::vector<ContactPressure> pressures;  // in scene order

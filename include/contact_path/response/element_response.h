@@ -47,7 +47,7 @@ class ElementResponse {
   ElementResponse(const Scene& scaled, const SceneIndex& index, const Configuration& configuration, const DofMap& dofs,
                   const Scaling& scaling);
 
-  // values: Structure::AllValues(). Sections and elements in the order of scene/element_names.h.
+  // values: Structure::AllValues(). Sections and elements in the order of scene/scene_index.h.
   std::vector<SectionForces> Sections(const Eigen::VectorXd& values) const;
   std::vector<SolidStress> Stresses(const Eigen::VectorXd& values) const;
 

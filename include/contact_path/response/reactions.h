@@ -9,7 +9,6 @@
 #include "contact_path/contact/path_point.h"
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/configuration.h"
-#include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"

@@ -65,7 +65,7 @@ struct Quantity {
 
   Kind kind = Kind::kLoadFactor;
   // Place of the node, obstacle or contact in its list of the scene; of a reaction, in SupportedNodes() or
-  // TouchedBoundaries(); number of the section or element (scene/element_names.h).
+  // TouchedBoundaries(); number of the section or element (scene/scene_index.h).
   std::size_t part = 0;
   bool of_boundary = false;
 };

@@ -44,7 +44,7 @@ enum class ObstacleShape {
   kHalfPlane,
   kCircle,
   kPolyline,  // with rounded corners
-  kSpline,    // the cubic through its points with continuous curvature (geometry/spline.h)
+  kSpline,    // the cubic through its points with continuous curvature (geometry/point_curves.h)
 };
 
 template <>

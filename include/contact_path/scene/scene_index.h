@@ -1,5 +1,5 @@
-// The names of a scene, each resolved once: nodes, materials, surfaces, obstacles, contacts, supports and boundaries by
-// their places.
+// The names of a scene, each resolved once: of nodes, materials, surfaces, obstacles, contacts, of supports and
+// boundaries, whose forces an increment tells, and of the sections and elements that quantities are of.
 #ifndef CONTACT_PATH_SCENE_SCENE_INDEX_H_
 #define CONTACT_PATH_SCENE_SCENE_INDEX_H_
 
@@ -10,11 +10,64 @@
 #include <unordered_map>
 #include <vector>
 
-#include "contact_path/scene/element_names.h"
-#include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
+
+// Sections are numbered through all bars, then all segments of beams; elements through all solids; both from 0. A
+// section is called "bar<place of the bar, from 1>" or "<beam>.<segment, from 1>", an element "<solid>.<element, from
+// 1>". A solid without a name, or with one that is not fit for a column or is that of a solid before it, is called
+// "solid<place>".
+class ElementNames {
+ public:
+  // scene: expanded (scene/expand.h).
+  explicit ElementNames(const Scene& scene);
+
+  std::size_t NumSections() const { return num_sections_; }
+  std::size_t NumElements() const { return num_elements_; }
+  bool IsBar(std::size_t section) const { return section < num_bars_; }
+  std::string SectionName(std::size_t section) const;
+  std::string ElementName(std::size_t element) const;
+  // Nothing for a name that the scene does not have.
+  std::optional<std::size_t> FindSection(std::string_view name) const;
+  std::optional<std::size_t> FindElement(std::string_view name) const;
+
+ private:
+  struct Part {
+    std::string name;
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
+  static std::string NameIn(const std::vector<Part>& parts, std::size_t number);
+  static std::optional<std::size_t> FindIn(const std::vector<Part>& parts, std::string_view name);
+
+  std::size_t num_bars_, num_sections_, num_elements_ = 0;
+  std::vector<Part> beams_, solids_;
+};
+
+// A node with a fixed component.
+struct SupportedNode {
+  std::size_t node = 0;  // place in the list of the scene
+  bool x = false;        // which components are fixed
+  bool y = false;
+  bool rotation = false;  // only of a node that a beam turns
+};
+
+// In the order of the nodes. scene: expanded (scene/expand.h).
+std::vector<SupportedNode> SupportedNodes(const Scene& scene);
+
+// What the candidates of a scene may touch.
+struct TouchedBoundary {
+  std::string name;
+  bool is_surface = false;
+  std::size_t place = 0;  // in the list of obstacles, or of surfaces
+};
+
+// Obstacles, then surfaces, that have contact candidates, in the order of the scene. scene: expanded.
+std::vector<TouchedBoundary> TouchedBoundaries(const Scene& scene);
+
+// By contact candidate, in scene order: which of these boundaries it may touch. boundaries: TouchedBoundaries(scene).
+std::vector<std::size_t> BoundaryOfContacts(const Scene& scene, const std::vector<TouchedBoundary>& boundaries);
 
 // Places in the lists of a scene, from 0. The stages of a program, which have the same lists, share an index. Of
 // several parts with one name, the first is known. `scene` must outlive the index, which refers to its names.

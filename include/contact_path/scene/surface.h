@@ -1,13 +1,15 @@
-// The boundaries of the rigid obstacles of a scene.
+// The boundaries of the rigid obstacles of a scene, and whether friction can act along them.
 #ifndef CONTACT_PATH_SCENE_SURFACE_H_
 #define CONTACT_PATH_SCENE_SURFACE_H_
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "contact_path/geometry/surface.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 
@@ -24,6 +26,15 @@ ShapeFault FindShapeFault(const Obstacle& obstacle);
 // The surface of an obstacle without a fault. An obstacle is placed by its point (px, py). A surface that is not flat
 // has a finite length, so that it can be drawn.
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);
+
+// Whether a node can move along an obstacle: one of its components that move, being free or moved as a support, has a
+// share in the tangent by more than rounding. A contact that cannot slide is frictionless, whatever its coefficient.
+// turns: the obstacle does, and its tangent with it.
+inline bool CanSlide(bool x_moves, bool y_moves, const Obstacle& obstacle, bool turns = false) {
+  if (turns || obstacle.shape != ObstacleShape::kHalfPlane) return x_moves || y_moves;        // its tangent turns
+  const double share = std::hypot(x_moves ? obstacle.ny : 0.0, y_moves ? obstacle.nx : 0.0);  // t = (n_y, -n_x)
+  return share > tolerances::kEqual * std::hypot(obstacle.nx, obstacle.ny);
+}
 
 }  // namespace contact_path
 

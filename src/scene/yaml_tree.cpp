@@ -1,4 +1,4 @@
-#include "scene/yaml_scalar.h"
+#include "scene/yaml_tree.h"
 
 #include <charconv>
 #include <cmath>
