@@ -266,16 +266,4 @@ std::unique_ptr<const Curve> MakeCircle(const Vector2d& centre, double radius, b
   return std::make_unique<Curve>(std::move(pieces), true, -0.5 * M_PI * radius);
 }
 
-std::unique_ptr<const Curve> MakeArc(const Vector2d& centre, double radius, double begin, double turn) {
-  const auto side = turn > 0.0 ? ArcPiece::Side::kInside : ArcPiece::Side::kOutside;
-  const int patches = std::abs(turn) > M_PI ? 2 : 1;
-  std::vector<std::unique_ptr<const CurvePiece>> pieces;
-  for (int i = 0; i < patches; ++i) {
-    const double middle = begin + turn * (i + 0.5) / patches;
-    pieces.push_back(std::make_unique<ArcPiece>(centre, radius, Vector2d(std::cos(middle), std::sin(middle)),
-                                                std::abs(turn) / patches, side));
-  }
-  return std::make_unique<Curve>(std::move(pieces), false);
-}
-
 }  // namespace contact_path

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 #include "contact_path/geometry/plane.h"
 #include "contact_path/tolerances.h"
@@ -58,7 +55,6 @@ bool Meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2
   return c_side * d_side <= 0.0 && a_side * b_side <= 0.0;
 }
 
-using Eigen::Vector2d;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
 // Solves the symmetric tridiagonal equations with these diagonals for each column of `right`, without pivoting: the
@@ -129,12 +125,6 @@ std::optional<std::pair<std::size_t, std::size_t>> FindCrossing(const PlanePoint
     }
   }
   return std::nullopt;
-}
-
-double TwiceTheArea(const PlanePoints& points) {
-  double area = 0.0;
-  for (std::size_t i = 2; i < points.size(); ++i) area += Cross(points[i - 1] - points[0], points[i] - points[0]);
-  return area;
 }
 
 double LargestFillet(const PlanePoints& points, bool closed) {

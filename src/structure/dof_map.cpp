@@ -26,11 +26,4 @@ int DofMap::Dof(int node, Field field, int component) const {
   return index < 0 ? -1 : components_[static_cast<std::size_t>(index)].dof;
 }
 
-Eigen::VectorXd DofMap::Unit(double length) const {
-  Eigen::VectorXd unit(num_dofs_);
-  for (const Component& component : components_)
-    if (component.dof >= 0) unit[component.dof] = UnitOf(component.field, length);
-  return unit;
-}
-
 }  // namespace contact_path

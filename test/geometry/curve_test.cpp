@@ -92,6 +92,19 @@ TEST(Circle, HasNoFootForItsCentre) {
   EXPECT_NEAR(circle->Nearest({1.0, 2.0}).distance, 3.0, kRounding);
 }
 
+// An open arc that begins at the angle `begin` from the x axis and turns by `turn`.
+std::unique_ptr<const Curve> MakeArc(const Vector2d& centre, double radius, double begin, double turn) {
+  const auto side = turn > 0.0 ? ArcPiece::Side::kInside : ArcPiece::Side::kOutside;
+  const int patches = std::abs(turn) > M_PI ? 2 : 1;
+  std::vector<std::unique_ptr<const CurvePiece>> pieces;
+  for (int i = 0; i < patches; ++i) {
+    const double middle = begin + turn * (i + 0.5) / patches;
+    pieces.push_back(std::make_unique<ArcPiece>(centre, radius, Vector2d(std::cos(middle), std::sin(middle)),
+                                                std::abs(turn) / patches, side));
+  }
+  return std::make_unique<Curve>(std::move(pieces), false);
+}
+
 TEST(Arc, EndsWhereItsTurnIsComplete) {
   for (const double turn : {-5.0, -2.0, 1.0, 4.0}) {
     const auto arc = MakeArc({0.2, 0.1}, 0.7, 0.4, turn);

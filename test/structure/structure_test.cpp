@@ -227,7 +227,7 @@ TEST(StructureWithRotation, ElementsSayWhichUnknownsThereAre) {
   EXPECT_EQ(structure.Dofs().Dof(2, Field::kRotation, 0), 3);  // after b.x, b.y, c.y
   EXPECT_EQ(structure.Dof(3, 0), 4);
   EXPECT_EQ(structure.Start()[3], 0.0);
-  EXPECT_EQ(structure.Dofs().Unit(5.0)[3], 1.0);
+  EXPECT_EQ(UnitOf(Field::kRotation, 5.0), 1.0);
 
   Eigen::VectorXd u = structure.Start();
   u[3] = 0.4;

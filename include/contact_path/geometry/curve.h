@@ -128,10 +128,6 @@ class Curve : public Surface {
 // (0, 1), in the middle of patch 0.
 std::unique_ptr<const Curve> MakeCircle(const Eigen::Vector2d& centre, double radius, bool inside);
 
-// An open arc that begins at the angle `begin` from the x axis and turns by `turn` [rad], counterclockwise > 0, up to a
-// full turn: the admissible side is on the left, inside of the circle where turn > 0 and outside where turn < 0.
-std::unique_ptr<const Curve> MakeArc(const Eigen::Vector2d& centre, double radius, double begin, double turn);
-
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_GEOMETRY_CURVE_H_

@@ -21,9 +21,6 @@ std::optional<std::size_t> FindEqualPoints(const PlanePoints& points, bool close
 // Two edges of a closed polyline, by their first points, that meet other than at a corner which they share.
 std::optional<std::pair<std::size_t, std::size_t>> FindCrossing(const PlanePoints& points);
 
-// Twice the area within a closed polyline, > 0 where it is walked counterclockwise: then its admissible side is inside.
-double TwiceTheArea(const PlanePoints& points);
-
 // The largest radius of fillets, the same at each corner, that leaves no edge less than nothing; infinite where all
 // edges are in line, 0 where an edge leads straight back. No two neighbouring points may be equal.
 double LargestFillet(const PlanePoints& points, bool closed);

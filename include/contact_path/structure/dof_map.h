@@ -44,8 +44,6 @@ class DofMap {
   // The value among Components(); -1 if the node has none.
   int Index(int node, Field field, int component) const;
   const std::vector<Component>& Components() const { return components_; }
-  // UnitOf() of each unknown, NumDofs().
-  Eigen::VectorXd Unit(double length) const;
 
  private:
   static std::size_t Slot(Field field, int component);
