@@ -90,6 +90,13 @@ class Walk : public Surface {
     return places;
   }
 
+  template <typename Piece, typename LengthOf>
+  void MakeSearch(const std::vector<Piece>& pieces, LengthOf length_of) {
+    std::vector<Around> around;
+    for (const Piece& piece : pieces) around.push_back({piece.from, length_of(piece)});
+    search_ = NearestPiece(std::move(around));
+  }
+
   // The nearest of the feet on all pieces; of equal ones the first. foot_on(i): on the piece i.
   template <typename FootOn>
   Foot NearestOf(const Vector& x, FootOn foot_on) const {
@@ -161,13 +168,11 @@ class Polyline : public Walk {
       pieces_.push_back({corners[i] + to * directions[i], directions[i], std::copysign(1.0L / radius, turns[corner]),
                          radius * std::abs(turns[corner])});
     }
-    std::vector<Around> around;
     for (Piece& piece : pieces_) {
       piece.begin = length_;
       length_ += piece.length;
-      around.push_back({piece.from, piece.length});
     }
-    search_ = NearestPiece(std::move(around));
+    MakeSearch(pieces_, [](const Piece& piece) { return piece.length; });
     FindBeyond(corners, directions);
   }
 
@@ -261,9 +266,7 @@ class Spline : public Walk {
       length_ = piece.walked.back();
       pieces_.push_back(std::move(piece));
     }
-    std::vector<Around> around;
-    for (const Piece& piece : pieces_) around.push_back({piece.from, LengthOf(piece)});
-    search_ = NearestPiece(std::move(around));
+    MakeSearch(pieces_, [](const Piece& piece) { return piece.walked.back() - piece.walked.front(); });
     if (!closed_) FindBeyond();
   }
 
@@ -334,8 +337,6 @@ class Spline : public Walk {
     }
     AddBeyond(Left(along), hull);
   }
-
-  static Real LengthOf(const Piece& piece) { return piece.walked.back() - piece.walked.front(); }
 
   Foot Nearest(const Vector& x) const override {
     return NearestOf(x, [&](std::size_t i) {

@@ -1,6 +1,7 @@
 #include "contact_path/scene/program.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -46,11 +47,22 @@ std::vector<double> SharesBefore(const std::vector<Stage>& program, std::size_t 
   return shares;
 }
 
-// A load at a share of its size.
-Load Times(double share, Load load, bool constant) {
-  for (double* const part : {&load.fx, &load.fy, &load.moment}) *part *= share;
-  load.constant = constant;
-  return load;
+// The numbers of a load or a motion.
+std::array<double*, 3> NumbersOf(Load* load) { return {&load->fx, &load->fy, &load->moment}; }
+std::array<double*, 3> NumbersOf(SupportMotion* motion) { return {&motion->dx, &motion->dy, &motion->rotation}; }
+std::array<double*, 3> NumbersOf(ObstacleMotion* motion) { return {&motion->dx, &motion->dy, &motion->turn}; }
+
+// A load or a motion at a share of its size.
+template <typename Part>
+Part Times(double share, Part part) {
+  for (double* const number : NumbersOf(&part)) *number *= share;
+  return part;
+}
+
+Load Times(double share, const Load& load, bool constant) {
+  Load part = Times(share, load);
+  part.constant = constant;
+  return part;
 }
 
 void Rotate(double angle, double* x, double* y) {
@@ -112,16 +124,6 @@ void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIn
   }
 }
 
-void AddTimes(double factor, const SupportMotion& motion, SupportMotion* sum) {
-  sum->dx += factor * motion.dx;
-  sum->dy += factor * motion.dy;
-  sum->rotation += factor * motion.rotation;
-}
-void AddTimes(double factor, const ObstacleMotion& motion, ObstacleMotion* sum) {
-  sum->dx += factor * motion.dx;
-  sum->dy += factor * motion.dy;
-}
-
 // Adds factor * motion to the motion of the same support or obstacle. places: of the motions in `sums`, by name.
 template <typename Motion>
 void AddMotion(std::string_view name, const Motion& motion, double factor,
@@ -129,9 +131,11 @@ void AddMotion(std::string_view name, const Motion& motion, double factor,
   const auto [at, is_new] = places->emplace(name, sums->size());
   if (is_new) {
     sums->push_back(motion);
-    AddTimes(-1.0, motion, &sums->back());
+    for (double* const number : NumbersOf(&sums->back())) *number = 0.0;
   }
-  AddTimes(factor, motion, &(*sums)[at->second]);
+  Motion part = Times(factor, motion);
+  const std::array<double*, 3> sum = NumbersOf(&(*sums)[at->second]), more = NumbersOf(&part);
+  for (std::size_t i = 0; i < sum.size(); ++i) *sum[i] += *more[i];
 }
 
 // With the loads and motions of a stage.
@@ -145,16 +149,9 @@ void SetLoading(const Stage& stage, Scene* scene) {
 Scene LoadedAtTarget(const Stage& stage, Scene scene) {
   const double target = stage.Target();
   SetLoading(stage, &scene);
-  for (Load& load : scene.loads) load = Times(target, load, load.constant);
-  for (SupportMotion& motion : scene.support_motions) {
-    motion.dx *= target;
-    motion.dy *= target;
-  }
-  for (ObstacleMotion& motion : scene.obstacle_motions) {
-    motion.dx *= target;
-    motion.dy *= target;
-    motion.turn *= target;
-  }
+  for (Load& load : scene.loads) load = Times(target, load);
+  for (SupportMotion& motion : scene.support_motions) motion = Times(target, motion);
+  for (ObstacleMotion& motion : scene.obstacle_motions) motion = Times(target, motion);
   return scene;
 }
 
