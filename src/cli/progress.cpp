@@ -5,7 +5,6 @@
 #include <iomanip>
 #include <utility>
 
-#include "contact_path/path/path_summary.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/text.h"

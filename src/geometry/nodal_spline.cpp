@@ -1,6 +1,5 @@
 #include "contact_path/geometry/nodal_spline.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>

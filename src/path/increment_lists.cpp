@@ -1,7 +1,5 @@
 #include "contact_path/path/increment_lists.h"
 
-#include "contact_path/scene/scene_index.h"
-
 namespace contact_path {
 
 LongLists LongLists::Of(const TraceRequest& request, const SceneIndex& index) {

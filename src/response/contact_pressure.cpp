@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "contact_path/scene/cell.h"
-#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {

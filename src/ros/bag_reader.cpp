@@ -1,10 +1,8 @@
 #include "contact_path/ros/bag_reader.h"
 
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <new>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 

@@ -109,6 +109,13 @@ class Checker {
   // A name that is given or made up. earlier: the names before it.
   void CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>* earlier);
 
+  // Adds a violation for each name that stands in the list before.
+  void CheckNoRepeats(const KeyPath& list, const std::vector<std::string>& names) {
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (!earlier.insert(names[i]).second) Add(list[i], names[i], "must not be repeated");
+  }
+
   // Clients in Python could not read another text. False after adding a violation.
   bool CheckUtf8(const KeyPath& key, const std::string& name);
 

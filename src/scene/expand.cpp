@@ -99,13 +99,8 @@ template <typename Add>
 void ExpandTraction(const Load& load, const BoundarySurface& surface, const Groups& groups, Add&& add) {
   std::vector<std::string> nodes = surface.nodes;
   if (surface.closed) nodes.push_back(nodes.front());
-  Load on_node;
-  on_node.constant = load.constant;
   const auto give = [&](const std::string& node, double length) {
-    on_node.node = node;
-    on_node.fx = length * load.px;
-    on_node.fy = length * load.py;
-    add(on_node);
+    add(Load{node, length * load.px, length * load.py, load.constant});
   };
   for (std::size_t i = 0; i + 1 < nodes.size();) {
     if (i + 2 < nodes.size() && groups.IsMidSide(nodes[i + 1])) {
@@ -133,28 +128,15 @@ void ExpandLoad(const Load& load, const Groups& groups, Add&& add) {
   const GroupNodes* const found = groups.Find(load.group);
   if (found == nullptr) return add(load);
   const GroupNodes& group = *found;
-  Load on_node;
-  on_node.constant = load.constant;
-  if (load.fx != 0.0 || load.fy != 0.0 || load.moment != 0.0) {
-    on_node.fx = load.fx;
-    on_node.fy = load.fy;
-    on_node.moment = load.moment;
-    for (const std::string& node : *group.nodes) {
-      on_node.node = node;
-      add(on_node);
-    }
-    on_node.moment = 0.0;
-  }
+  if (load.fx != 0.0 || load.fy != 0.0 || load.moment != 0.0)
+    for (const std::string& node : *group.nodes) add(Load{node, load.fx, load.fy, load.constant, load.moment});
   if (group.beam == nullptr || (load.px == 0.0 && load.py == 0.0)) return;
   const std::vector<std::string>& nodes = *group.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     double length = 0.0;
     if (i > 0) length += 0.5 * groups.Length(nodes[i - 1], nodes[i]);
     if (i + 1 < nodes.size()) length += 0.5 * groups.Length(nodes[i], nodes[i + 1]);
-    on_node.node = nodes[i];
-    on_node.fx = length * load.px;
-    on_node.fy = length * load.py;
-    add(on_node);
+    add(Load{nodes[i], length * load.px, length * load.py, load.constant});
   }
 }
 

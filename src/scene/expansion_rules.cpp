@@ -97,10 +97,7 @@ class GroupRules {
       const Group& group = scene_.groups[i];
       checker_.CheckFields(list[i], group, &earlier);
       if (group.nodes.empty()) checker_.Add(list[i].Key("nodes"), "[]", "at least one node is needed");
-      std::unordered_set<std::string> nodes;
-      for (std::size_t k = 0; k < group.nodes.size(); ++k)
-        if (!nodes.insert(group.nodes[k]).second)
-          checker_.Add(list[i].Key("nodes")[k], group.nodes[k], "must not be repeated");
+      checker_.CheckNoRepeats(list[i].Key("nodes"), group.nodes);
       groups_.insert(group.name);
     }
     CheckSurfaces();
@@ -137,9 +134,7 @@ class GroupRules {
       const std::size_t least = surface.closed ? 3 : 2;
       if (surface.nodes.size() < least)
         checker_.Add(nodes, ListText(surface.nodes), "at least " + std::to_string(least) + " nodes are needed");
-      std::unordered_set<std::string> names;
-      for (std::size_t k = 0; k < surface.nodes.size(); ++k)
-        if (!names.insert(surface.nodes[k]).second) checker_.Add(nodes[k], surface.nodes[k], "must not be repeated");
+      checker_.CheckNoRepeats(nodes, surface.nodes);
       surfaces_.insert(surface.name);
     }
   }

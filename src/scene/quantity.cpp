@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "contact_path/scene/scene_index.h"
-
 namespace contact_path {
 namespace {
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <string_view>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "contact_path/scene/expand.h"

@@ -2,10 +2,8 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <locale>
-#include <sstream>
 #include <system_error>
 
 namespace contact_path {

@@ -71,31 +71,18 @@ struct Member {
 
   constexpr Member(std::string_view field_name, Value Part::*field_member) : name(field_name), member(field_member) {}
 
-  constexpr Member In(Unit of_number) const {
-    Member changed = *this;
-    changed.unit = of_number;
-    return changed;
-  }
-  constexpr Member Within(Range admitted) const {
-    Member changed = *this;
-    changed.range = admitted;
-    return changed;
-  }
-  constexpr Member Naming(TextKind kind) const {
-    Member changed = *this;
-    changed.text = kind;
-    return changed;
-  }
+  constexpr Member In(Unit of_number) const { return With(&Member::unit, of_number); }
+  constexpr Member Within(Range admitted) const { return With(&Member::range, admitted); }
+  constexpr Member Naming(TextKind kind) const { return With(&Member::text, kind); }
   // The text may be left out.
-  constexpr Member OrNone() const {
-    Member changed = *this;
-    changed.optional = true;
-    return changed;
-  }
+  constexpr Member OrNone() const { return With(&Member::optional, true); }
   // The name of the field in earlier versions, for a message that tells the new one.
-  constexpr Member Formerly(std::string_view old_name) const {
+  constexpr Member Formerly(std::string_view old_name) const { return With(&Member::formerly, old_name); }
+
+  template <typename T>
+  constexpr Member With(T Member::*what, T value) const {
     Member changed = *this;
-    changed.formerly = old_name;
+    changed.*what = value;
     return changed;
   }
 
