@@ -22,9 +22,9 @@
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/expand.h"
-#include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/scene/validate.h"
 #ifdef CONTACT_PATH_WITH_ROS
 #include "contact_path/ros/bag_reader.h"

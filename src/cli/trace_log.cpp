@@ -7,8 +7,8 @@
 #include "cli/json_fields.h"
 #include "contact_path/path/end.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/scene_file.h"
 #include "contact_path/scene/text.h"
-#include "contact_path/scene/write_scene.h"
 
 namespace contact_path {
 

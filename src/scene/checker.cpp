@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
 
 namespace contact_path {

@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/text.h"
 #include "scene/rules.h"
 
 namespace contact_path {

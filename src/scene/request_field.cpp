@@ -10,7 +10,7 @@
 
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/key_path.h"
-#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/text.h"
 #include "scene/yaml_tree.h"
 
 namespace contact_path {

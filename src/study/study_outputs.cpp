@@ -7,7 +7,6 @@
 #include "contact_path/path/csv.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/expand.h"
-#include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/text.h"
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/scene_file.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/scene/write_scene.h"
 #include "support/broken_rule.h"
 
 namespace contact_path::expand_test {

@@ -1,4 +1,4 @@
-#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/text.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/scene/scene_file.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/scene/write_scene.h"
 #include "support/broken_rule.h"
 #include "support/same_request.h"
 #include "support/solid_grid.h"

@@ -1,11 +1,10 @@
-#include "contact_path/scene/write_scene.h"
+#include "contact_path/scene/scene_file.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <string>
 
-#include "contact_path/scene/read_scene.h"
 #include "support/same_request.h"
 #include "support/traced_path.h"
 

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "contact_path/scene/field.h"
-#include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 

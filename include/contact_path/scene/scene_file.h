@@ -1,6 +1,6 @@
-// Reads the YAML form of a request, which is also the form of the service call.
-#ifndef CONTACT_PATH_SCENE_READ_SCENE_H_
-#define CONTACT_PATH_SCENE_READ_SCENE_H_
+// Requests as YAML: read from scene files, and written as such.
+#ifndef CONTACT_PATH_SCENE_SCENE_FILE_H_
+#define CONTACT_PATH_SCENE_SCENE_FILE_H_
 
 #include <string>
 
@@ -15,6 +15,10 @@ TraceRequest ReadTraceRequest(const std::string& text, const std::string& file_n
 // The same from a file. Throws InvalidRequest also where the file cannot be read.
 TraceRequest ReadTraceRequestFile(const std::string& path);
 
+// YAML, one part a line, full double precision: ReadTraceRequest() of it gives the same request to the last bit. Fields
+// that have their default are left out.
+std::string WriteTraceRequest(const TraceRequest& request);
+
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_SCENE_READ_SCENE_H_
+#endif  // CONTACT_PATH_SCENE_SCENE_FILE_H_
