@@ -17,7 +17,7 @@
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/trace_service.h"
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 
 namespace contact_path {
 namespace {

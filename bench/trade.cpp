@@ -19,7 +19,7 @@
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/stop.h"
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "lattice.h"
 #include "process/process.h"
 

@@ -23,7 +23,7 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/text.h"
 #include "contact_path/scene/validate.h"
 #ifdef CONTACT_PATH_WITH_ROS

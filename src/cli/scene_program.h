@@ -7,7 +7,7 @@
 #include <iostream>
 #include <string>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 
 namespace contact_path {
 

@@ -7,7 +7,7 @@
 #include "cli/json_fields.h"
 #include "contact_path/path/end.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/text.h"
 
 namespace contact_path {

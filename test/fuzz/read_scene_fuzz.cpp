@@ -2,7 +2,7 @@
 // same after it was written and read again.
 #include <algorithm>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "fuzz/target.h"
 #include "support/same_request.h"
 

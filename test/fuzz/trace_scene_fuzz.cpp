@@ -8,7 +8,7 @@
 #include "contact_path/path/increment.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
 #include "fuzz/target.h"
 #include "fuzz/varied_request.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "support/plank.h"
 #include "support/traced_path.h"
 

@@ -7,7 +7,7 @@
 
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/trace.h"
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
 namespace contact_path::end_test {

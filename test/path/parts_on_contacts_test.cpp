@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
 namespace contact_path::parts_on_contacts_test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact_path/path/mpec_method.h"
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 

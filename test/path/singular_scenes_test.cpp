@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/decisions.h"
 #include "support/seeds.h"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"

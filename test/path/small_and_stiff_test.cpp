@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
 namespace contact_path::small_and_stiff_test {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
 #include "support/broken_rule.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
-#include "contact_path/scene/scene_file.h"
 #include "contact_path/scene/validate.h"
 #include "support/broken_rule.h"
 #include "support/same_request.h"

@@ -1,4 +1,4 @@
-#include "contact_path/scene/scene_file.h"
+#include "contact_path/scene/read_scene.h"
 
 #include <gtest/gtest.h>
 

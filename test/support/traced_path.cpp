@@ -11,8 +11,8 @@
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
-#include "contact_path/scene/scene_file.h"
 #include "contact_path/scene/surface.h"
 #include "contact_path/verify/verify_path.h"
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
-#include "contact_path/scene/scene_file.h"
 #include "contact_path/scene/validate.h"
 #include "support/traced_path.h"
 

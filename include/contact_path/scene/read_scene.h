@@ -1,6 +1,6 @@
 // Requests as YAML: read from scene files, and written as such.
-#ifndef CONTACT_PATH_SCENE_SCENE_FILE_H_
-#define CONTACT_PATH_SCENE_SCENE_FILE_H_
+#ifndef CONTACT_PATH_SCENE_READ_SCENE_H_
+#define CONTACT_PATH_SCENE_READ_SCENE_H_
 
 #include <string>
 
@@ -21,4 +21,4 @@ std::string WriteTraceRequest(const TraceRequest& request);
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_SCENE_SCENE_FILE_H_
+#endif  // CONTACT_PATH_SCENE_READ_SCENE_H_
