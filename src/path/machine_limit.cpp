@@ -14,6 +14,11 @@ namespace {
 
 constexpr double kAhead = 0.1;  // of the wanted step: where a branch from a singular point shows whether it is stable
 
+// The unstable direction in the sense that goes on as the path does.
+Eigen::VectorXd Towards(const Eigen::VectorXd& along, const Eigen::VectorXd& direction) {
+  return direction.dot(along) < 0.0 ? Eigen::VectorXd(-direction) : direction;
+}
+
 }  // namespace
 
 std::optional<End> BranchMethod::SetOut(const PathPoint& from, StartRecord* found) {
@@ -80,7 +85,7 @@ void BranchMethod::NoteLimit(const ArcStep& at, const Facts& facts, AcceptedPoin
   const bool moves = along.norm() > tolerances::kRate;
   if (!moves) along = at.step.end.first.head(LoadFactor());
   if (null_directions.cols() > 0 && !turns)
-    along = null_directions.col(0);
+    along = Towards(along, null_directions.col(0));
   else if (null_directions.cols() == 0 && !(turns && moves && !at_event))
     along = Push(increment->point, along);
   leaving_ = Leaving{std::move(along),
@@ -108,7 +113,7 @@ Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd
   problem.Set(released, {});
   const Stability found = problem.Under(machine_.IsDead() ? INFINITY : machine_.Compliance());
   if (found.verdict != Verdict::kUnstable || found.direction.size() == 0) return along;
-  return found.direction.dot(along) < 0.0 ? Eigen::VectorXd(-found.direction) : found.direction;
+  return Towards(along, found.direction);
 }
 
 Advance BranchMethod::StartAnew(const PathPoint& from, End held) {
