@@ -19,7 +19,7 @@ std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, 
   for (int i = 0;; ++i) {
     // Parts that buckle at one place: curves cross there.
     bool broken = false;
-    if (i % kBisections == 0 && held >= 0 && falls > held && !stability_->HasSlips())
+    if (i % kBisections == 0 && held >= 0 && falls > held && !limit_.monitor()->HasSlips())
       if (const auto found = CrossingOn(&arc_, step, before, after, falls - held, &broken)) {
         place = PointOf(found->at, arc_);
         place->BeSingular();
@@ -33,8 +33,8 @@ std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, 
     // Where parts buckle the equations give no derivatives; the interpolation of the step does.
     CurvePoint middle = step.At(t);
     middle.x = there.x;
-    if (stability_->HasSlips() && !arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
-    const Stability found = stability_->At(arc_.system().Unpack(there.x));
+    if (limit_.monitor()->HasSlips() && !arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
+    const Stability found = limit_.monitor()->At(arc_.system().Unpack(there.x));
     const bool gone = found.verdict == Verdict::kUnstable;
     (gone ? falls : held) = found.directions;
     if (gone) place = middle;
@@ -63,7 +63,7 @@ Eigen::MatrixXd BranchMethod::NullDirections(const ArcStep& at) const {
 
 void BranchMethod::NoteStability(const CurvePoint& end, const AcceptedPoint& increment,
                                  const Eigen::MatrixXd& null_directions) {
-  stability_->Note(increment.point, end, null_directions, arc_.NegativeEigenvalues(end.x));
+  limit_.monitor()->Note(increment.point, end, null_directions, arc_.NegativeEigenvalues(end.x));
 }
 
 void BranchMethod::NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment) {
@@ -78,7 +78,7 @@ void BranchMethod::NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& i
     const bool closes = at.event.fails->inequality == Inequality::kGap || IsOfSlip(at.event.fails->inequality);
     decides = closes ? StabilityMonitor::Decides::kArrival : StabilityMonitor::Decides::kDeparture;
   }
-  stability_->NoteEvent(leaves, current_, decides);
+  limit_.monitor()->NoteEvent(leaves, current_, decides);
 }
 
 bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment) {
@@ -89,22 +89,22 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   // Where curves cross, the tangent is known less well, and the setting may turn at that point.
   const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent : 0.0;
   const Eigen::Index n = arc_.NumMotion();
-  if (!machine_.IsDead() && parameter_.Rate(at.step.start.first, n) > 0.0 &&
-      parameter_.Rate(at.step.end.first, n) < -rounding) {
+  if (!limit_.machine().IsDead() && limit_.parameter().Rate(at.step.start.first, n) > 0.0 &&
+      limit_.parameter().Rate(at.step.end.first, n) < -rounding) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(arc_.system().NumUnknowns());
-    row.head(n) = parameter_.Gradient(n);
+    row.head(n) = limit_.parameter().Gradient(n);
     place = LocateTurn(&arc_, at.step, row);
   }
-  if (stability_) {
-    const bool held = stability_->HeldOnArc();
+  if (limit_.monitor() != nullptr) {
+    const bool held = limit_.monitor()->HeldOnArc();
     NoteStability(at.step.end, *increment, NullDirections(at));
     // What is singular at the end itself does not count on the way there, and right before it rounding decides.
     double last = at.step.length;
-    Stability after = stability_->UnderMachine();
+    Stability after = limit_.monitor()->UnderMachine();
     if (!place && held && (at.step.end.is_limit || at.step.end.is_crossing)) {
       last *= 1.0 - tolerances::kSmallShare;
       const std::optional<PathPoint> before = PointApart(at.step, last);
-      after = before ? stability_->At(*before) : Stability();
+      after = before ? limit_.monitor()->At(*before) : Stability();
     }
     if (!place && held && after.verdict == Verdict::kUnstable)
       place = OnsetOn(at.step, last, after.directions, &crossing);
@@ -120,7 +120,7 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   next->at.event.crossing = crossing;
   Balance(next);
   *increment = IncrementOf(at, from);
-  if (stability_) NoteStability(*place, *increment, NullDirections(at));
+  if (limit_.monitor() != nullptr) NoteStability(*place, *increment, NullDirections(at));
   return true;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostShorter = 6;        // times half as long, for the energies
 constexpr int kMostEventsInPlace = 8;  // then the contacts chatter, and no branch is trusted
-constexpr double kProbe = 0.1;         // of the wanted step: where a load that is level at an event is looked at again
+constexpr double kAhead = 0.1;  // of the wanted step: where a branch, or a load that is level, is looked at again
 
 End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {{sentence}}}; }
 
@@ -23,10 +23,8 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
     : model_(model),
       options_(options),
       cancelled_(std::move(cancelled)),
-      machine_(MachineSetting(model, options.machine_stiffness).machine()),
-      parameter_(MachineSetting(model, options.machine_stiffness).Parameter(options.direction)),
-      stability_(options.stability ? std::make_unique<StabilityMonitor>(model, machine_) : nullptr),
-      departure_(model, {parameter_, options.forward, options.at_limit != AtLimit::kFollow, options.largest_reaction},
+      limit_(model, options, cancelled_),
+      departure_(model, {limit_.parameter(), options.forward, !limit_.IsFollowed(), options.largest_reaction},
                  cancelled_),
       arc_(model.structure, model.contacts),
       step_length_(options.step),
@@ -54,13 +52,53 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
   departure_.NoteReactions(from);
   if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
   std::optional<End> end = SetOut(from, found);
-  const bool unstable = stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable;
-  if (!unstable || (end && end->reason != EndReason::kPathEnd)) return end;
-  if (options_.at_limit == AtLimit::kStop) return End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
-  if (options_.at_limit == AtLimit::kFollow) return end;
-  leaving_ = Leaving{Push(from, parameter_.Gradient(arc_.NumMotion()).head(LoadFactor())),
-                     end ? Limit::kTurns : Limit::kUnstable, std::move(end)};
-  return std::nullopt;
+  limit_.NoteStart(from, departure_.ToleranceAt(from), &end);
+  return end;
+}
+
+std::optional<End> BranchMethod::SetOut(const PathPoint& from, StartRecord* found) {
+  at_start_ = true;
+  events_in_place_ = 0;
+  stored_.reset();
+  step_length_ = options_.step;
+  departure_.Restart();
+  std::optional<End> end = departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_,
+                                            &current_, &found->branches);
+  if (limit_.monitor() != nullptr) {
+    PathPoint leaves = from;
+    if (!end) leaves.states = arc_.system().states();
+    if (!end) leaves.patches = arc_.system().patches();
+    limit_.monitor()->Start(leaves, end ? nullptr : &current_);
+    found->stability = limit_.monitor()->record();
+  }
+  return end;
+}
+
+Advance BranchMethod::TakeJump(const PathPoint& from) {
+  using Kind = MachineLimit::Outcome::Kind;
+  MachineLimit::Outcome jump = limit_.TakeJump(from, increments_);
+  if (jump.kind == Kind::kEnds) return Ended(*std::move(jump.end));
+  if (jump.kind == Kind::kGoesOn) {
+    step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
+    return {};
+  }
+  ++increments_;
+  const bool lands = jump.kind == Kind::kLands;
+  StartRecord found;
+  Advance advance;
+  advance.end = SetOut(lands ? jump.landing.point : from, &found);
+  if (!lands && advance.end) return Ended(*std::move(jump.end));
+  AcceptedPoint increment = lands ? std::move(jump.landing) : IncrementAt(from, from);
+  increment.event = std::move(found.branches);
+  increment.stability = std::move(found.stability);
+  if (lands) {
+    limit_.NoteLanding(from, increment.point, departure_.ToleranceAt(increment.point), &advance.end);
+  } else {
+    increment.kind = IncrementKind::kContactEvent;
+    increment.event.number = ++events_;
+  }
+  advance.increments.push_back(std::move(increment));
+  return advance;
 }
 
 bool BranchMethod::Resume(const ResumePoint& at) {
@@ -168,15 +206,29 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
   facts->smooth_limit = kind == EventKind::kLimitPoint;
   if (facts->smooth_limit && at.event.crossing) {
     increment->event.null_vector = CrossingPath(*at.event.crossing);
-    facts->bifurcation = options_.at_limit != AtLimit::kFollow && TakeCrossingThatGoesOn(at);
+    facts->bifurcation = !limit_.IsFollowed() && TakeCrossingThatGoesOn(at);
   }
   return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, facts);
 }
 
+std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
+  const Eigen::Index n = arc_.NumMotion();
+  const double length = kAhead * options_.step;
+  const auto leads_on = [&](const Branch& branch) {
+    if (limit_.parameter().Sense(branch.first, branch.second, n, tolerances::kRate) < 0) return false;
+    const Eigen::VectorXd ahead = current_.x + length * branch.first + 0.5 * length * length * branch.second;
+    const Correction there = arc_.CorrectOnPlane(ahead, branch.first.head(n));
+    return there.converged && limit_.parameter().Rate(there.x - current_.x, n) > 0.0 &&
+           limit_.monitor()->At(arc_.system().Unpack(there.x)).verdict == Verdict::kStable;
+  };
+  return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
+}
+
 bool BranchMethod::TakeCrossingThatGoesOn(const ArcStep& at) {
-  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
+  const std::vector<Branch> branches =
+      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, limit_.parameter());
   const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
-    return parameter_.Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
+    return limit_.parameter().Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
   });
   if (found == branches.end()) return false;
   TakeCurve(found->first, found->second, LoadFactor(), &current_);
@@ -189,9 +241,10 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   record->complete = at.event.crossing->across.size() == 1;
   record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
-  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing, parameter_);
+  const std::vector<Branch> branches =
+      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, limit_.parameter());
   RecordBranches(branches, record);
-  const bool stays_stable = options_.at_limit != AtLimit::kFollow && stability_;
+  const bool stays_stable = !limit_.IsFollowed() && limit_.monitor() != nullptr;
   const std::size_t stable = stays_stable ? StableBranch(branches) : branches.size();
   facts->stable_ahead = stable < branches.size();
   End end_here;
@@ -259,7 +312,7 @@ bool BranchMethod::TurnsLoad(const ArcStep& at) {
   // A load that is level to second order may yet rise or fall; and where paths cross, a second derivative may be
   // nothing but the distance of the located point from the crossing.
   if (rate(current_.first[s]).Sign() == 0 && arrives != 0 && (leaves == 0 || at.event.crossing)) {
-    const std::optional<double> found = RateBeyond(kProbe * options_.step);
+    const std::optional<double> found = RateBeyond(kAhead * options_.step);
     const int beyond = found ? rate(*found).Sign() : leaves;
     if (leaves == 0 || beyond == 0) leaves = beyond;
   }
@@ -327,7 +380,7 @@ bool BranchMethod::Balance(BalancedStep* step) const {
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
-  if (leaving_) return TakeJump(from, *std::exchange(leaving_, std::nullopt));
+  if (limit_.Leaves()) return TakeJump(from);
   if (departure_.ChangesReactions()) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
   std::optional<BalancedStep> next = NextBalancedStep();
@@ -372,14 +425,18 @@ Advance BranchMethod::Next(const PathPoint& from) {
     advance.end = PassEnd(*at, &increment, &facts);
   }
   increment.kind = facts.Kind();
-  if (stability_) {
+  if (limit_.monitor() != nullptr) {
     if (increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit)
       NoteStabilityBehind(*at, increment);
-    increment.stability = stability_->record();
+    increment.stability = limit_.monitor()->record();
   }
   SetNextLength(*at);
-  NoteLimit(*at, facts, &increment, &advance);
-  increment.solve.next_step = leaving_ ? 0.0 : step_length_;
+  const bool decides_behind = limit_.Note(
+      {increment.point, at->step.end, current_, NullDirections(*at), at->event.Kind() == EventKind::kContactEvent,
+       facts.bifurcation, facts.stable_ahead, departure_.ToleranceAt(increment.point)},
+      &increment.stability, &advance.end);
+  if (decides_behind) step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
+  increment.solve.next_step = limit_.Leaves() ? 0.0 : step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));
   return advance;

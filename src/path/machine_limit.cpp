@@ -1,18 +1,14 @@
-// Where the machine that loads the structure can go no further on a stable path.
-#include <algorithm>
+#include "contact_path/path/machine_limit.h"
+
 #include <cmath>
 #include <utility>
 
-#include "contact_path/branch/bifurcation_branches.h"
-#include "contact_path/path/branch_method.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/stability/jump.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
-
-constexpr double kAhead = 0.1;  // of the wanted step: where a branch from a singular point shows whether it is stable
 
 // The unstable direction in the sense that goes on as the path does.
 Eigen::VectorXd Towards(const Eigen::VectorXd& along, const Eigen::VectorXd& direction) {
@@ -21,82 +17,66 @@ Eigen::VectorXd Towards(const Eigen::VectorXd& along, const Eigen::VectorXd& dir
 
 }  // namespace
 
-std::optional<End> BranchMethod::SetOut(const PathPoint& from, StartRecord* found) {
-  at_start_ = true;
-  events_in_place_ = 0;
-  stored_.reset();
-  step_length_ = options_.step;
-  departure_.Restart();
-  std::optional<End> end = departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_,
-                                            &current_, &found->branches);
-  if (stability_) {
-    PathPoint leaves = from;
-    if (!end) leaves.states = arc_.system().states();
-    if (!end) leaves.patches = arc_.system().patches();
-    stability_->Start(leaves, end ? nullptr : &current_);
-    found->stability = stability_->record();
+MachineLimit::MachineLimit(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
+    : model_(model),
+      cancelled_(std::move(cancelled)),
+      at_limit_(options.at_limit),
+      landing_checks_(options.landing_checks),
+      machine_(MachineSetting(model, options.machine_stiffness).machine()),
+      parameter_(MachineSetting(model, options.machine_stiffness).Parameter(options.direction)),
+      monitor_(options.stability ? std::make_unique<StabilityMonitor>(model, machine_) : nullptr) {}
+
+void MachineLimit::NoteStart(const PathPoint& point, const ActiveSetTolerance& tolerance, std::optional<End>* end) {
+  if (!IsUnstable() || (*end && (*end)->reason != EndReason::kPathEnd) || IsFollowed()) return;
+  if (at_limit_ == AtLimit::kStop) {
+    *end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
+    return;
   }
-  return end;
+  const Eigen::VectorXd along = parameter_.Gradient(point.u.size() + 1).head(point.u.size());
+  leaving_ =
+      Leaving{Push(point, along, tolerance), *end ? Why::kTurns : Why::kUnstable, std::exchange(*end, std::nullopt)};
 }
 
-std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
-  const Eigen::Index n = arc_.NumMotion();
-  const double length = kAhead * options_.step;
-  const auto leads_on = [&](const Branch& branch) {
-    if (parameter_.Sense(branch.first, branch.second, n, tolerances::kRate) < 0) return false;
-    const Eigen::VectorXd ahead = current_.x + length * branch.first + 0.5 * length * length * branch.second;
-    const Correction there = arc_.CorrectOnPlane(ahead, branch.first.head(n));
-    return there.converged && parameter_.Rate(there.x - current_.x, n) > 0.0 &&
-           stability_->At(arc_.system().Unpack(there.x)).verdict == Verdict::kStable;
-  };
-  return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
-}
-
-void BranchMethod::NoteLimit(const ArcStep& at, const Facts& facts, AcceptedPoint* increment, Advance* advance) {
-  if (options_.at_limit == AtLimit::kFollow) return;
-  const bool none = advance->end && advance->end->reason == EndReason::kPathEnd;
-  if (advance->end && !none) return;
-  const Eigen::Index n = arc_.NumMotion();
-  const bool turns = !none && parameter_.Sense(current_.first, current_.second, n, tolerances::kRate) < 0;
-  const Stability under_machine = stability_ ? stability_->UnderMachine() : Stability();
-  const bool unstable = under_machine.verdict == Verdict::kUnstable;
-  const Eigen::MatrixXd null_directions = NullDirections(at);
+bool MachineLimit::Note(const Place& place, StabilityRecord* record, std::optional<End>* end) {
+  if (IsFollowed()) return false;
+  const bool none = *end && (*end)->reason == EndReason::kPathEnd;
+  if (*end && !none) return false;
+  const Eigen::Index nd = place.point.u.size(), flat = place.null_directions.cols();
+  const bool turns = !none && parameter_.Sense(place.leaves.first, place.leaves.second, nd + 1, tolerances::kRate) < 0;
+  const bool unstable = IsUnstable();
   // Where curves cross, directions without stiffness decide to a higher order: right behind, the machine tells.
-  const bool decides_behind = facts.bifurcation && !none && !turns && unstable && null_directions.cols() > 0 &&
-                              under_machine.directions <= null_directions.cols();
-  if (facts.stable_ahead || (decides_behind && options_.at_limit == AtLimit::kJump)) {
-    Verdict& verdict = machine_.IsDead() ? increment->stability.stability : increment->stability.stability_controlled;
+  const bool decides_behind =
+      place.bifurcation && !none && !turns && unstable && flat > 0 && monitor_->UnderMachine().directions <= flat;
+  if (place.stable_ahead || (decides_behind && at_limit_ == AtLimit::kJump)) {
+    Verdict& verdict = machine_.IsDead() ? record->stability : record->stability_controlled;
     if (machine_.IsDead() || std::isinf(machine_.stiffness)) verdict = Verdict::kNotProved;
-    if (machine_.IsDead()) increment->stability.unstable_directions = -1;
-    increment->stability.critical_stiffness = -1.0;
-    if (!facts.stable_ahead) step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
-    return;
+    if (machine_.IsDead()) record->unstable_directions = -1;
+    record->critical_stiffness = -1.0;
+    return !place.stable_ahead;
   }
-  if (options_.at_limit == AtLimit::kStop) {
-    if (turns || (unstable && !none)) advance->end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
-    return;
+  if (at_limit_ == AtLimit::kStop) {
+    if (turns || (unstable && !none)) *end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
+    return false;
   }
   if (!none && !turns && !unstable) {
     came_back_ = false;
-    return;
+    return false;
   }
-  const bool at_event = none || at.event.Kind() == EventKind::kContactEvent;
-  Eigen::VectorXd along = (none ? at.step.end : current_).first.head(LoadFactor());
+  const bool at_event = none || place.contact_event;
+  Eigen::VectorXd along = (none ? place.arrives : place.leaves).first.head(nd);
   const bool moves = along.norm() > tolerances::kRate;
-  if (!moves) along = at.step.end.first.head(LoadFactor());
-  if (null_directions.cols() > 0 && !turns)
-    along = Towards(along, null_directions.col(0));
-  else if (null_directions.cols() == 0 && !(turns && moves && !at_event))
-    along = Push(increment->point, along);
-  leaving_ = Leaving{std::move(along),
-                     !none && !turns ? Limit::kUnstable
-                     : at_event      ? Limit::kAtEvent
-                                     : Limit::kTurns,
-                     std::exchange(advance->end, std::nullopt)};
+  if (!moves) along = place.arrives.first.head(nd);
+  if (flat > 0 && !turns)
+    along = Towards(along, place.null_directions.col(0));
+  else if (flat == 0 && !(turns && moves && !at_event))
+    along = Push(place.point, along, place.tolerance);
+  const Why why = !none && !turns ? Why::kUnstable : at_event ? Why::kAtEvent : Why::kTurns;
+  leaving_ = Leaving{std::move(along), why, std::exchange(*end, std::nullopt)};
+  return false;
 }
 
-Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd& along) const {
-  const ActiveSetTolerance tolerance = departure_.ToleranceAt(point);
+Eigen::VectorXd MachineLimit::Push(const PathPoint& point, const Eigen::VectorXd& along,
+                                   const ActiveSetTolerance& tolerance) const {
   PathPoint released = point;
   for (std::size_t i = 0; i < released.states.size(); ++i) {
     const ContactPair& pair = *model_.contacts[i];
@@ -116,63 +96,42 @@ Eigen::VectorXd BranchMethod::Push(const PathPoint& point, const Eigen::VectorXd
   return Towards(along, found.direction);
 }
 
-Advance BranchMethod::StartAnew(const PathPoint& from, End held) {
-  StartRecord found;
-  ++increments_;
-  if (SetOut(from, &found)) return Ended(std::move(held));
-  AcceptedPoint increment = IncrementAt(from, from);
-  increment.kind = IncrementKind::kContactEvent;
-  increment.event = std::move(found.branches);
-  increment.event.number = ++events_;
-  increment.stability = std::move(found.stability);
-  Advance advance;
-  advance.increments.push_back(std::move(increment));
-  return advance;
-}
-
-Advance BranchMethod::TakeJump(const PathPoint& from, Leaving leaving) {
-  JumpResult jump =
-      Jump(model_.structure, model_.contacts, from, leaving.push, machine_, options_.landing_checks, cancelled_);
-  if (jump.cancelled) return Ended({EndReason::kCancelled, {{sentences::kCancelled}}});
+MachineLimit::Outcome MachineLimit::TakeJump(const PathPoint& from, int number) {
+  using Kind = Outcome::Kind;
+  Leaving leaving = *std::exchange(leaving_, std::nullopt);
+  JumpResult jump = Jump(model_.structure, model_.contacts, from, leaving.push, machine_, landing_checks_, cancelled_);
+  if (jump.cancelled) return {Kind::kEnds, {}, End{EndReason::kCancelled, {{sentences::kCancelled}}}};
   if (jump.came_back) {
-    End held = leaving.end ? *leaving.end : End{EndReason::kNoLanding, {{sentences::kNoJump, {}, increments_}}};
-    if (std::exchange(came_back_, true) || leaving.limit == Limit::kTurns) return Ended(std::move(held));
-    if (leaving.limit == Limit::kAtEvent) return StartAnew(from, std::move(held));
-    // Where a disturbance sets out too slowly to be followed, it does so right behind.
-    step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * options_.step);
-    return {};
+    const bool again = std::exchange(came_back_, true);
+    if (!leaving.end) leaving.end = End{EndReason::kNoLanding, {{sentences::kNoJump, {}, number}}};
+    if (again || leaving.why == Why::kTurns) return {Kind::kEnds, {}, std::move(leaving.end)};
+    return {leaving.why == Why::kAtEvent ? Kind::kSetsOutAnew : Kind::kGoesOn, {}, std::move(leaving.end)};
   }
   if (!jump.landing)
-    return Ended(
-        {EndReason::kNoLanding, {{sentences::kNoLanding, {}, increments_, jump.followed * model_.scaling.length}}});
+    return {Kind::kEnds,
+            {},
+            End{EndReason::kNoLanding, {{sentences::kNoLanding, {}, number, jump.followed * model_.scaling.length}}}};
   came_back_ = false;
-  ++increments_;
-  AcceptedPoint increment;
-  increment.kind = IncrementKind::kJump;
-  increment.point = std::move(jump.landing->point);
-  increment.arc_length = Distance(from, increment.point);
+  AcceptedPoint landing;
+  landing.kind = IncrementKind::kJump;
+  landing.point = std::move(jump.landing->point);
+  landing.arc_length = Distance(from, landing.point);
   const double unit = model_.scaling.force * model_.scaling.length;
-  increment.work = {unit * jump.landing->friction, unit * jump.landing->loads};
-  increment.jump = {unit * jump.landing->energy_released(), jump.robust};
+  landing.work = {unit * jump.landing->friction, unit * jump.landing->loads};
+  landing.jump = {unit * jump.landing->energy_released(), jump.robust};
   // Coulomb's law holds on the way, and not between its ends.
-  increment.residuals = model_.Check(increment.point, increment.point);
-  if (!(increment.residuals.Largest() <= tolerances::kAccepted))
-    return Ended({EndReason::kNumericalFailure, {{sentences::kResiduals}}});
-  increment.solve.method = Method::kBranch;
-  increment.solve.exact = true;
-  StartRecord found;
-  Advance advance;
-  advance.end = SetOut(increment.point, &found);
-  increment.event = std::move(found.branches);
-  increment.stability = std::move(found.stability);
-  const bool unstable = stability_ && stability_->UnderMachine().verdict == Verdict::kUnstable;
-  if (advance.end ? advance.end->reason == EndReason::kPathEnd : unstable) {
-    // It has landed where the next part is at its limit: it moves on the same way.
-    leaving_ = Leaving{Push(increment.point, increment.point.u - from.u), Limit::kTurns,
-                       std::exchange(advance.end, std::nullopt)};
-  }
-  advance.increments.push_back(std::move(increment));
-  return advance;
+  landing.residuals = model_.Check(landing.point, landing.point);
+  landing.solve.method = Method::kBranch;
+  landing.solve.exact = true;
+  if (!(landing.residuals.Largest() <= tolerances::kAccepted))
+    return {Kind::kEnds, {}, End{EndReason::kNumericalFailure, {{sentences::kResiduals}}}};
+  return {Kind::kLands, std::move(landing)};
+}
+
+void MachineLimit::NoteLanding(const PathPoint& from, const PathPoint& landing, const ActiveSetTolerance& tolerance,
+                               std::optional<End>* end) {
+  if (*end ? (*end)->reason != EndReason::kPathEnd : !IsUnstable()) return;
+  leaving_ = Leaving{Push(landing, landing.u - from.u, tolerance), Why::kTurns, std::exchange(*end, std::nullopt)};
 }
 
 }  // namespace contact_path

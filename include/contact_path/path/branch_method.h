@@ -11,12 +11,10 @@
 #include "contact_path/branch/contact_arc.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
-#include "contact_path/path/machine_setting.h"
+#include "contact_path/path/machine_limit.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
-#include "contact_path/path/stability_monitor.h"
 #include "contact_path/path/work.h"
-#include "contact_path/stability/machine.h"
 
 namespace contact_path {
 
@@ -76,29 +74,11 @@ class BranchMethod : public PathMethod {
 
     IncrementKind Kind() const;
   };
-  // Why the machine goes no further: no branch on which the parameter goes on leads on from an event, the parameter
-  // turns on the curve, or the equilibrium is unstable.
-  enum class Limit { kAtEvent, kTurns, kUnstable };
-  // A jump that comes next. end: of the path where nothing moves; nothing: kNoLanding.
-  struct Leaving {
-    Eigen::VectorXd push;  // du
-    Limit limit = Limit::kUnstable;
-    std::optional<End> end = {};
-  };
   // Sets out from an equilibrium with all contact states that are open to it.
   std::optional<End> SetOut(const PathPoint& from, StartRecord* found);
-  // Where the increment ends the machine can go no further on a stable path, as at_limit wants it: no branch leads on,
-  // the path parameter turns, or the equilibrium is unstable under the machine.
-  void NoteLimit(const ArcStep& at, const Facts& facts, AcceptedPoint* increment, Advance* advance);
-  // The direction (du) in which the structure leaves an equilibrium that is not held, contacts that may let go let go.
-  // along: to which it is turned, and where none is found.
-  Eigen::VectorXd Push(const PathPoint& point, const Eigen::VectorXd& along) const;
   // The motion from the last increment while the machine rests, in an increment of its own, and the path from where it
-  // lands.
-  Advance TakeJump(const PathPoint& from, Leaving leaving);
-  // Where a jump from an event comes back: what rests may set out on any branch, also on that of arrival, which the
-  // list of the event leaves out. An increment in place has them on record. held: the end, if no branch leads on.
-  Advance StartAnew(const PathPoint& from, End held);
+  // lands. Where it comes back to an event, the increment in place has the branches of what rests there on record.
+  Advance TakeJump(const PathPoint& from);
   // The first of the branches from a singular point of the curve on which the path parameter goes on, and which is
   // stable under the machine; their number: none is.
   std::size_t StableBranch(const std::vector<Branch>& branches);
@@ -138,9 +118,7 @@ class BranchMethod : public PathMethod {
   const Model& model_;
   BranchOptions options_;
   const std::function<bool()> cancelled_;
-  const Machine machine_;
-  const PathParameter parameter_;
-  std::unique_ptr<StabilityMonitor> stability_;  // null: not asked for
+  MachineLimit limit_;
   Departure departure_;
   ContactArc arc_;
   StepEnds ends_;
@@ -151,8 +129,6 @@ class BranchMethod : public PathMethod {
   int events_in_place_ = 0;       // passed without moving
   bool at_start_ = true;          // not moved yet
   std::optional<double> stored_;  // strain energy at current_, where it is known [force length]
-  std::optional<Leaving> leaving_;
-  bool came_back_ = false;  // a jump from the increment before did
 };
 
 }  // namespace contact_path
