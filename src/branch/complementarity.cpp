@@ -139,19 +139,17 @@ std::optional<ComplementaritySolution> Measure(const Eigen::MatrixXd& M, const E
 
 }  // namespace
 
-ComplementaritySolutions SolveComplementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
+std::vector<ComplementaritySolution> SolveComplementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
   const Eigen::Index n = M.rows();
-  ComplementaritySolutions solutions;
-  solutions.only = HasOneSolutionForEach(M);
+  std::vector<ComplementaritySolution> solutions;
   const auto note = [&](std::optional<std::vector<bool>> second) {
     if (!second) return;
     std::optional<ComplementaritySolution> solution = Measure(M, q, *std::move(second));
     const auto same = [&](const ComplementaritySolution& other) { return other.second == solution->second; };
-    if (solution && std::none_of(solutions.list.begin(), solutions.list.end(), same))
-      solutions.list.push_back(*std::move(solution));
+    if (solution && std::none_of(solutions.begin(), solutions.end(), same)) solutions.push_back(*std::move(solution));
   };
   note(SolveByLemke(M, q, Eigen::VectorXd::Ones(n)));
-  if (solutions.only) return solutions;
+  if (HasOneSolutionForEach(M)) return solutions;
   // Other ways lead to other solutions, where there are several: the variables covered in other shares, and the two of
   // each pair exchanged, z = M^-1 w - M^-1 q.
   Eigen::VectorXd uneven(n);

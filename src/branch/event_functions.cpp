@@ -17,13 +17,10 @@ constexpr double kNearShare = 0.05;      // of the difference of quintic and cub
 constexpr double kReach = 2.0;           // of the length of a step: wider gaps stay open on it
 constexpr double kReachOfLocated = 0.1;  // of the length of a step: what is located beside its curve is of another one
 
-Jet ValueAlong(const ArcEquations& equations, const Constraint& constraint, const CurvePoint& point) {
-  return equations.ValueAlong(constraint, point.x, point.first, point.second);
-}
-
 // The function of an inequality that must stay >= 0: its value, or for slip its rate.
 Quintic FunctionOf(const ArcEquations& equations, const Step& step, const Constraint& constraint) {
-  const Quintic value = step.Interpolate([&](const CurvePoint& at) { return ValueAlong(equations, constraint, at); });
+  const Quintic value = step.Interpolate(
+      [&](const CurvePoint& at) { return equations.ValueAlong(constraint, at.x, at.first, at.second); });
   return equations.IsOfRate(constraint) ? Derivative(value) : value;
 }
 
@@ -71,6 +68,16 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
     if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &*point)) return std::nullopt;
   }
   return point;
+}
+
+// Where row . x turns.
+std::optional<CurvePoint> LocateTurnNear(SmoothArc* arc, const Step& step, double t, const Eigen::VectorXd& row) {
+  return LocateRate(
+      arc, step, t,
+      [&](const CurvePoint& at) {
+        return Jet{row.dot(at.x), row.dot(at.first), row.dot(at.second)};
+      },
+      [&](const Eigen::VectorXd&) { return row; });
 }
 
 }  // namespace
@@ -257,13 +264,55 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
   return std::nullopt;
 }
 
-std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends);
+std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event,
+                                        const StepEnds& ends) {
+  ArcEquations& equations = arc->equations();
+  switch (event.Kind()) {
+    case EventKind::kNone: return step.end;
+    case EventKind::kTooLong: return std::nullopt;
+    case EventKind::kNearTouch: return PointAt(arc, step, event.t);
+    case EventKind::kBifurcation: return std::nullopt;
+    case EventKind::kLimitPoint:
+      return LocateTurnNear(arc, step, event.t, Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()));
+    case EventKind::kTarget: {
+      const Correction correction =
+          arc->Correct(step.Point(event.t), Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()),
+                       ends.load_factor.value());
+      CurvePoint point;
+      if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
+      return point;
+    }
+    case EventKind::kSample:
+      return LocateSample(arc, step, event.t, ends.functions[event.sample->target], event.sample->value);
+    case EventKind::kContactEvent: break;
+  }
+  const auto along = [&](const CurvePoint& at) {
+    return equations.ValueAlong(*event.fails, at.x, at.first, at.second);
+  };
+  const auto gradient = [&](const Eigen::VectorXd& x) { return equations.Gradient(*event.fails, x); };
+  if (equations.IsOfRate(*event.fails)) return LocateRate(arc, step, event.t, along, gradient);
+  // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
+  // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
+  // that crossed it.
+  const Eigen::VectorXd guess = step.Point(event.t);
+  Correction correction = arc->CorrectOnto(*event.fails, guess);
+  const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
+  if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
+    std::optional<CurvePoint> lowest = LocateRate(arc, step, event.t, along, gradient);
+    if (lowest && along(*lowest).second > 0.0) return lowest;
+    correction = arc->CorrectOnPlane(guess, step.normal);
+  }
+  if (!correction.converged) return std::nullopt;
+  const CurvePoint interpolated = step.At(step.normal.dot((correction.x - step.start.x).head(step.normal.size())));
+  CurvePoint point;
+  const bool regular = arc->Derivatives(correction.x, interpolated.first.head(step.normal.size()), &point) &&
+                       equations.Norm(point.first - interpolated.first) <= tolerances::kSmallShare;
+  if (!regular) point = interpolated;
+  point.x = correction.x;
+  return point;
+}
 
 }  // namespace
-
-double ErrorOfPlace(const CurvePoint& limit_point, Eigen::Index load) {
-  return limit_point.load_error / std::abs(limit_point.second[load]);
-}
 
 EventKind StepEvent::Kind() const {
   if (too_long) return EventKind::kTooLong;
@@ -349,12 +398,7 @@ std::optional<CurvePoint> LocateTurn(SmoothArc* arc, const Step& step, const Eig
   int count = 0;
   const std::array<double, 5> roots = Roots(Derivative(along), step.length, &count);
   if (count == 0) return std::nullopt;
-  return LocateRate(
-      arc, step, roots[0],
-      [&](const CurvePoint& at) {
-        return Jet{row.dot(at.x), row.dot(at.first), row.dot(at.second)};
-      },
-      [&](const Eigen::VectorXd&) { return row; });
+  return LocateTurnNear(arc, step, roots[0], row);
 }
 
 std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends) {
@@ -373,58 +417,4 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   return point;
 }
 
-namespace {
-
-std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event,
-                                        const StepEnds& ends) {
-  ArcEquations& equations = arc->equations();
-  switch (event.Kind()) {
-    case EventKind::kNone: return step.end;
-    case EventKind::kTooLong: return std::nullopt;
-    case EventKind::kNearTouch: return PointAt(arc, step, event.t);
-    case EventKind::kBifurcation: return std::nullopt;
-    case EventKind::kLimitPoint:
-      return LocateRate(
-          arc, step, event.t,
-          [s = arc->LoadFactor()](const CurvePoint& at) {
-            return Jet{at.x[s], at.first[s], at.second[s]};
-          },
-          [s = arc->LoadFactor()](const Eigen::VectorXd& x) { return Eigen::VectorXd::Unit(x.size(), s); });
-    case EventKind::kTarget: {
-      const Correction correction =
-          arc->Correct(step.Point(event.t), Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()),
-                       ends.load_factor.value());
-      CurvePoint point;
-      if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
-      return point;
-    }
-    case EventKind::kSample:
-      return LocateSample(arc, step, event.t, ends.functions[event.sample->target], event.sample->value);
-    case EventKind::kContactEvent: break;
-  }
-  const auto along = [&](const CurvePoint& at) { return ValueAlong(equations, *event.fails, at); };
-  const auto gradient = [&](const Eigen::VectorXd& x) { return equations.Gradient(*event.fails, x); };
-  if (equations.IsOfRate(*event.fails)) return LocateRate(arc, step, event.t, along, gradient);
-  // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
-  // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
-  // that crossed it.
-  const Eigen::VectorXd guess = step.Point(event.t);
-  Correction correction = arc->CorrectOnto(*event.fails, guess);
-  const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
-  if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
-    std::optional<CurvePoint> lowest = LocateRate(arc, step, event.t, along, gradient);
-    if (lowest && along(*lowest).second > 0.0) return lowest;
-    correction = arc->CorrectOnPlane(guess, step.normal);
-  }
-  if (!correction.converged) return std::nullopt;
-  const CurvePoint interpolated = step.At(step.normal.dot((correction.x - step.start.x).head(step.normal.size())));
-  CurvePoint point;
-  const bool regular = arc->Derivatives(correction.x, interpolated.first.head(step.normal.size()), &point) &&
-                       equations.Norm(point.first - interpolated.first) <= tolerances::kSmallShare;
-  if (!regular) point = interpolated;
-  point.x = correction.x;
-  return point;
-}
-
-}  // namespace
 }  // namespace contact_path

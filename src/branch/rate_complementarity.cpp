@@ -209,7 +209,7 @@ void RateComplementarity::Build(const RateProblem& rates) {
 
 std::vector<RateSolution> RateComplementarity::Solve(double load_sense) const {
   std::vector<RateSolution> solutions;
-  for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_).list) {
+  for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_)) {
     solutions.push_back({{}, !solution.degenerate.empty()});
     std::vector<ContactState>& states = solutions.back().states;
     for (const ContactModes& option : options_) states.push_back(option.front().state);

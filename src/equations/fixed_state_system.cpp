@@ -59,11 +59,6 @@ void FixedStateSystem::FixLoadFactor(double value) {
   Rebuild();
 }
 
-void FixedStateSystem::FreeLoadFactor() {
-  load_factor_fixed_ = false;
-  Rebuild();
-}
-
 FixedStateSystem::Motion FixedStateSystem::MotionOf(const Constraint& constraint) const {
   const auto i = static_cast<std::size_t>(constraint.contact);
   if (KeepsPatch(constraint.inequality)) {

@@ -71,8 +71,6 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
   limits.unit = system->ResidualUnit();
   const NewtonCourse course = NewtonLoop(
       limits, true, next, [](const Eigen::VectorXd& dx) { return dx.norm(); }, &result.x, &step);
-  result.iterations = course.iterations;
-  if (!course.steps.empty()) result.last_step = course.steps.back();
   system->Residual(result.x, &residual);
   result.residual = system->Largest(residual);
   result.converged = course.at_rounding && result.residual <= tolerances::kStagnation;

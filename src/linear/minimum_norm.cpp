@@ -98,12 +98,10 @@ Eigen::VectorXd NormsAround(const Eigen::SparseMatrix<double>& transposed) {
 }
 
 // The norms by which Factorize() divides the equations.
-Eigen::VectorXd NormsOf(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance,
-                        const Eigen::VectorXd& least_norms) {
+Eigen::VectorXd NormsOf(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
   const bool singular = rank_tolerance > tolerances::kDependentColumn;
   const Eigen::VectorXd around = singular ? NormsAround(transposed) : Eigen::VectorXd::Zero(transposed.cols());
   Eigen::VectorXd norms = tolerances::kFadingEquation * around;
-  if (least_norms.size() > 0) norms = norms.cwiseMax(least_norms);
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
     const double norm = std::max(transposed.col(column).norm(), norms[column]);
     norms[column] = norm == 0.0 ? 1.0 : norm;
@@ -125,9 +123,8 @@ struct MinimumNormSolver::Factors {
 MinimumNormSolver::MinimumNormSolver() : factors_(std::make_unique<Factors>()) {}
 MinimumNormSolver::~MinimumNormSolver() = default;
 
-bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance,
-                                  const Eigen::VectorXd& least_norms) {
-  const Eigen::VectorXd norms = NormsOf(transposed, rank_tolerance, least_norms);
+bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
+  const Eigen::VectorXd norms = NormsOf(transposed, rank_tolerance);
   if (!norms.allFinite()) return false;
   factors_->scaled = transposed;
   factors_->scale = norms.cwiseInverse();

@@ -42,8 +42,11 @@ std::optional<CurvePoint> BranchMethod::OnsetOn(const Step& step, double after, 
   }
 }
 
-Eigen::MatrixXd BranchMethod::NullDirections(const Crossing& crossing) const {
-  const Eigen::Index nd = LoadFactor();
+Eigen::MatrixXd BranchMethod::NullDirections(const ArcStep& at) const {
+  const Eigen::Index nd = arc_.LoadFactor();
+  if (!at.event.crossing)
+    return at.step.end.is_limit ? Eigen::MatrixXd(at.step.end.first.head(nd).normalized()) : Eigen::MatrixXd();
+  const Crossing& crossing = *at.event.crossing;
   // The last curve of several is that of all parts together.
   const std::size_t parts = std::max<std::size_t>(1, crossing.across.size() - 1);
   const Eigen::VectorXd& along = crossing.along.first;
@@ -54,11 +57,6 @@ Eigen::MatrixXd BranchMethod::NullDirections(const Crossing& crossing) const {
         (across.head(nd) * along[nd] - along.head(nd) * across[nd]).normalized();
   }
   return directions;
-}
-
-Eigen::MatrixXd BranchMethod::NullDirections(const ArcStep& at) const {
-  if (at.event.crossing) return NullDirections(*at.event.crossing);
-  return at.step.end.is_limit ? Eigen::MatrixXd(at.step.end.first.head(LoadFactor()).normalized()) : Eigen::MatrixXd();
 }
 
 void BranchMethod::NoteStability(const CurvePoint& end, const AcceptedPoint& increment,

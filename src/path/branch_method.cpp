@@ -1,6 +1,7 @@
 #include "contact_path/path/branch_method.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "contact_path/branch/bifurcation_branches.h"
@@ -178,9 +179,10 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step.end.x));
   if (!found) return std::nullopt;
   const Eigen::VectorXd x = system.Pack(found->point);
-  // The increment come back to is at the limit point where this one ends.
+  // The increment come back to is at the limit point where this one ends, to what rounding leaves of its place.
   const bool at_limit = at->event.Kind() == EventKind::kLimitPoint && !at->event.crossing &&
-                        (x - step.end.x).head(arc_.NumMotion()).norm() <= ErrorOfPlace(step.end, system.NumDofs());
+                        (x - step.end.x).head(arc_.NumMotion()).norm() <=
+                            step.end.load_error / std::abs(step.end.second[arc_.LoadFactor()]);
   if (at_limit) return found->increment;
   CurvePoint end;
   if (!arc_.Derivatives(x, step.normal, &end)) return std::nullopt;
@@ -231,7 +233,7 @@ bool BranchMethod::TakeCrossingThatGoesOn(const ArcStep& at) {
     return limit_.parameter().Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
   });
   if (found == branches.end()) return false;
-  TakeCurve(found->first, found->second, LoadFactor(), &current_);
+  TakeCurve(found->first, found->second, arc_.LoadFactor(), &current_);
   return true;
 }
 
@@ -253,7 +255,7 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   if (!taken) return end_here;
   record->taken = static_cast<int>(*taken) + 1;
   if (*taken == 0) return std::nullopt;
-  TakeCurve(branches[*taken].first, branches[*taken].second, LoadFactor(), &current_);
+  TakeCurve(branches[*taken].first, branches[*taken].second, arc_.LoadFactor(), &current_);
   facts->leaves_curve = true;
   facts->load_turns = TurnsLoad(at);
   if (facts->load_turns) record->null_vector.clear();
@@ -306,25 +308,20 @@ bool BranchMethod::FailsByRounding(const ArcStep& at) const {
 
 bool BranchMethod::TurnsLoad(const ArcStep& at) {
   const auto rate = [](double value) { return Measured{value, tolerances::kRate}; };
-  const Eigen::Index s = LoadFactor();
+  const Eigen::Index s = arc_.LoadFactor();
   const int arrives = LeadingSign({rate(at.step.end.first[s]), rate(-at.step.end.second[s])});
   int leaves = LeadingSign({rate(current_.first[s]), rate(current_.second[s])});
   // A load that is level to second order may yet rise or fall; and where paths cross, a second derivative may be
   // nothing but the distance of the located point from the crossing.
   if (rate(current_.first[s]).Sign() == 0 && arrives != 0 && (leaves == 0 || at.event.crossing)) {
-    const std::optional<double> found = RateBeyond(kAhead * options_.step);
-    const int beyond = found ? rate(*found).Sign() : leaves;
+    const Eigen::VectorXd normal = current_.first.head(s + 1);
+    const Correction there = arc_.CorrectOnPlane(current_.x + kAhead * options_.step * current_.first, normal);
+    CurvePoint point;
+    const bool found = there.converged && arc_.Derivatives(there.x, normal, &point);
+    const int beyond = found ? rate(point.first[s]).Sign() : leaves;
     if (leaves == 0 || beyond == 0) leaves = beyond;
   }
   return arrives * leaves < 0;
-}
-
-std::optional<double> BranchMethod::RateBeyond(double length) {
-  const Eigen::VectorXd normal = current_.first.head(arc_.NumMotion());
-  const Correction there = arc_.CorrectOnPlane(current_.x + length * current_.first, normal);
-  CurvePoint point;
-  if (!there.converged || !arc_.Derivatives(there.x, normal, &point)) return std::nullopt;
-  return point.first[LoadFactor()];
 }
 
 bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
@@ -334,11 +331,6 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
   const int next = point.Patch(i) + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
   const double force = departure_.ToleranceAt(point).force * model_.contacts[i]->NormalForceUnit();
   return !model_.contacts[i]->HasPatch(next) && point.rn[constraint.contact] > force;
-}
-
-void BranchMethod::SetNextLength(const ArcStep& at) {
-  // As long as wanted unless this step had to be shortened.
-  step_length_ = std::min(options_.step, at.rejected > 0 ? 1.5 * at.tried : 2.0 * step_length_);
 }
 
 std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
@@ -430,7 +422,8 @@ Advance BranchMethod::Next(const PathPoint& from) {
       NoteStabilityBehind(*at, increment);
     increment.stability = limit_.monitor()->record();
   }
-  SetNextLength(*at);
+  // As long as wanted unless this step had to be shortened.
+  step_length_ = std::min(options_.step, at->rejected > 0 ? 1.5 * at->tried : 2.0 * step_length_);
   const bool decides_behind = limit_.Note(
       {increment.point, at->step.end, current_, NullDirections(*at), at->event.Kind() == EventKind::kContactEvent,
        facts.bifurcation, facts.stable_ahead, departure_.ToleranceAt(increment.point)},

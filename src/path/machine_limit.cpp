@@ -91,7 +91,7 @@ Eigen::VectorXd MachineLimit::Push(const PathPoint& point, const Eigen::VectorXd
   }
   StabilityProblem problem(model_.structure, model_.contacts);
   problem.Set(released, {});
-  const Stability found = problem.Under(machine_.IsDead() ? INFINITY : machine_.Compliance());
+  const Stability found = problem.Under(machine_.Compliance());
   if (found.verdict != Verdict::kUnstable || found.direction.size() == 0) return along;
   return Towards(along, found.direction);
 }

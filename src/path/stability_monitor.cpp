@@ -26,7 +26,7 @@ void StabilityMonitor::Count(const PathPoint& point, const Eigen::MatrixXd& null
 
 Stability StabilityMonitor::At(const PathPoint& point) {
   problem_.Set(point, {});
-  return problem_.Under(machine_.IsDead() ? INFINITY : machine_.Compliance());
+  return problem_.Under(machine_.Compliance());
 }
 
 void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {

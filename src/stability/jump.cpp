@@ -77,12 +77,6 @@ Eigen::VectorXd StiffnessOfNodes(const Structure& structure, const Eigen::Vector
   return share;
 }
 
-Eigen::VectorXd DefaultPush(const Structure& structure, double s) {
-  if (!structure.ReferenceLoad().isZero(0.0)) return (s < 0.0 ? -1.0 : 1.0) * structure.ReferenceLoad();
-  if (!structure.ConstantLoad().isZero(0.0)) return structure.ConstantLoad();
-  return GenericVector(structure.NumDofs());
-}
-
 // M u'' + C u' resist the motion. By unknown; supports move as they are driven.
 struct Resistance {
   Eigen::VectorXd mass, drag;
@@ -431,8 +425,7 @@ class Jumper {
 JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
                 const Eigen::VectorXd& push, const Machine& machine, bool checked,
                 const std::function<bool()>& cancelled) {
-  const Eigen::VectorXd along = push.size() > 0 ? push : DefaultPush(structure, from.s);
-  return Jumper(structure, contacts, from, machine, cancelled).Run(along, checked);
+  return Jumper(structure, contacts, from, machine, cancelled).Run(push, checked);
 }
 
 }  // namespace contact_path

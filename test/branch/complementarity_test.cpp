@@ -54,7 +54,7 @@ std::set<Basis> AllBases(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
 
 std::set<Basis> Found(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
   std::set<Basis> bases;
-  for (const ComplementaritySolution& solution : SolveComplementarity(M, q).list) bases.insert(solution.second);
+  for (const ComplementaritySolution& solution : SolveComplementarity(M, q)) bases.insert(solution.second);
   return bases;
 }
 
@@ -64,11 +64,11 @@ TEST(Complementarity, OneSolutionByCertificate) {
     const Eigen::MatrixXd M = RandomPMatrix(&random, n);
     const Eigen::VectorXd q = random.Vector(n, -1.0, 1.0);
     for (const double sense : {1.0, -1.0}) {
-      const ComplementaritySolutions solutions = SolveComplementarity(M, sense * q);
-      EXPECT_TRUE(solutions.only);
-      ASSERT_EQ(solutions.list.size(), 1U);
-      EXPECT_TRUE(solutions.list[0].degenerate.empty());
-      EXPECT_EQ(AllBases(M, sense * q), std::set<Basis>{solutions.list[0].second});
+      EXPECT_TRUE(HasOneSolutionForEach(M));
+      const std::vector<ComplementaritySolution> solutions = SolveComplementarity(M, sense * q);
+      ASSERT_EQ(solutions.size(), 1U);
+      EXPECT_TRUE(solutions[0].degenerate.empty());
+      EXPECT_EQ(AllBases(M, sense * q), std::set<Basis>{solutions[0].second});
     }
   }
 }
@@ -77,7 +77,7 @@ TEST(Complementarity, TwoSolutionsAreNotTheOnlyOnes) {
   Eigen::Matrix2d M;
   M << 1.0, -2.0, -2.0, 1.0;
   const Eigen::Vector2d q(1.0, 1.0);
-  EXPECT_FALSE(SolveComplementarity(M, q).only);
+  EXPECT_FALSE(HasOneSolutionForEach(M));
   EXPECT_EQ(Found(M, q), (std::set<Basis>{{false, false}, {true, true}}));  // z = 0, z = (1, 1)
 }
 
@@ -87,13 +87,13 @@ TEST(Complementarity, PairsWhoseModesTheRatesHide) {
   for (const double rounding : {0.0, 1e-12, -1e-12}) {
     const Eigen::MatrixXd M = RandomPMatrix(&random, 4);
     const Eigen::Vector4d z(0.7, 0.0, 0.0, 0.4), w(0.0, 0.5, rounding, 0.0);
-    const ComplementaritySolutions one = SolveComplementarity(M, w - M * z);
-    ASSERT_EQ(one.list.size(), 1U);
-    EXPECT_EQ(one.list[0].degenerate, std::vector<Eigen::Index>{2});
-    EXPECT_TRUE(one.list[0].second[0] && !one.list[0].second[1] && one.list[0].second[3]);
-    const ComplementaritySolutions all = SolveComplementarity(M, Eigen::Vector4d::Zero());
-    ASSERT_EQ(all.list.size(), 1U);
-    EXPECT_EQ(all.list[0].degenerate, (std::vector<Eigen::Index>{0, 1, 2, 3}));
+    const std::vector<ComplementaritySolution> one = SolveComplementarity(M, w - M * z);
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_EQ(one[0].degenerate, std::vector<Eigen::Index>{2});
+    EXPECT_TRUE(one[0].second[0] && !one[0].second[1] && one[0].second[3]);
+    const std::vector<ComplementaritySolution> all = SolveComplementarity(M, Eigen::Vector4d::Zero());
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].degenerate, (std::vector<Eigen::Index>{0, 1, 2, 3}));
   }
 }
 

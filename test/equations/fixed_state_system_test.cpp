@@ -76,8 +76,6 @@ TEST_F(MixedSystem, CountsUnknownsAndEquations) {
   EXPECT_EQ(system_.NumEquations(), system_.NumUnknowns());
   system_.SetActive({{0, Inequality::kConeMinus}, {3, Inequality::kSlip}});
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1 + 1 + 2);
-  system_.FreeLoadFactor();
-  EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1 + 2);
   system_.SetStates(states, reference_);
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
 }

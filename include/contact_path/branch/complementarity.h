@@ -12,17 +12,12 @@ struct ComplementaritySolution {
   std::vector<Eigen::Index> degenerate;  // pairs of which this is zero, too, to its error: either may be the one
 };
 
-struct ComplementaritySolutions {
-  std::vector<ComplementaritySolution> list;
-  bool only = false;  // by HasOneSolutionForEach() there are no others
-};
-
 // w = M z + q, 0 <= w, 0 <= z, w . z = 0. M: n x n, scaled to a diagonal of the order of 1; q: n, known to
 // tolerances::kRate of the largest variable. Solutions are found by Lemke's method (Cottle, Pang & Stone, The Linear
 // Complementarity Problem, 2009, algorithm 4.4.5), where there may be several by several covering vectors and from both
 // sides. Ties are broken by changing each entry of q by another share of 1e-9 of its largest one, so that the method
 // ends. None is found where it ends on a ray, or the pivots are lost in rounding. The cost is n^2 a pivot.
-ComplementaritySolutions SolveComplementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q);
+std::vector<ComplementaritySolution> SolveComplementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q);
 
 // Whether the symmetric part of M is positive definite, by a Cholesky factorisation: then every q has exactly one
 // solution.

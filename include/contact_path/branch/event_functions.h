@@ -77,10 +77,6 @@ std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, doub
 // The point itself.
 CurvePoint PointOf(const Crossing& crossing, const SmoothArc& arc);
 
-// What rounding leaves of the place of a limit point along its arc (scaled).
-// load: the load factor's place among the unknowns.
-double ErrorOfPlace(const CurvePoint& limit_point, Eigen::Index load);
-
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_BRANCH_EVENT_FUNCTIONS_H_

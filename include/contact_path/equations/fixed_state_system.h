@@ -39,8 +39,7 @@ class FixedStateSystem : public ArcEquations {
   // changes.
   void SetStatesFrom(const PathPoint& from, const std::vector<ContactState>& states);
   void SetActive(const std::vector<Constraint>& constraints);
-  void FixLoadFactor(double value);
-  void FreeLoadFactor();
+  void FixLoadFactor(double value);  // until the next SetStates()
 
   Eigen::Index NumUnknowns() const override { return num_unknowns_; }
   Eigen::Index NumEquations() const override { return num_equations_; }

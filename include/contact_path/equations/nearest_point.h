@@ -10,10 +10,8 @@ namespace contact_path {
 
 struct NearestPoint {
   bool converged = false;
-  Eigen::VectorXd x;       // unknowns of the system
-  double residual = 0.0;   // largest equation residual at x
-  double last_step = 0.0;  // norm of the last step
-  int iterations = 0;
+  Eigen::VectorXd x;      // unknowns of the system
+  double residual = 0.0;  // largest equation residual at x
   Eigen::Index rank = 0;  // of the Jacobian at the last iteration
 };
 

@@ -23,12 +23,10 @@ class MinimumNormSolver {
 
   // Equations are divided by their norms, so that a soft one beside a stiff one counts as much. rank_tolerance: with a
   // larger one than the default, an equation far below those around it, as across bars that become straight without
-  // stress, counts as dependent. least_norms: by equation, or empty: lower bounds of these norms. With the norms at
-  // another point of a curve of solutions, an equation that vanishes at this very point counts as dependent.
-  // transposed: A', unknowns x equations. False if it is not finite. Throws std::bad_alloc where there is not enough
-  // memory, as all functions below do, and LinearSolverError where the factorisation fails.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = tolerances::kDependentColumn,
-                 const Eigen::VectorXd& least_norms = {});
+  // stress, counts as dependent. transposed: A', unknowns x equations. False if it is not finite. Throws
+  // std::bad_alloc where there is not enough memory, as all functions below do, and LinearSolverError where the
+  // factorisation fails.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = tolerances::kDependentColumn);
   Eigen::Index Rank() const;
   // x for b of the number of equations; Factorize() must have returned true.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;

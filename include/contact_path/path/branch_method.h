@@ -32,7 +32,6 @@ class BranchMethod : public PathMethod {
   Causes Remarks() const override;
 
  private:
-  Eigen::Index LoadFactor() const { return arc_.NumMotion() - 1; }  // its place among the unknowns
   // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
   // An increment that ends at the point, and one that ends with the step, as far as both are known before the event is
@@ -63,7 +62,6 @@ class BranchMethod : public PathMethod {
   void NoteStability(const CurvePoint& end, const AcceptedPoint& increment, const Eigen::MatrixXd& null_directions);
   // Of the arc that begins at the event at the end of the step.
   void NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment);
-  Eigen::MatrixXd NullDirections(const Crossing& crossing) const;
   Eigen::MatrixXd NullDirections(const ArcStep& at) const;
   // What is the case where an increment ends.
   struct Facts {
@@ -98,11 +96,8 @@ class BranchMethod : public PathMethod {
   // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
   // derivative is zero, the second tells, and its rate a little further on where both are zero or paths cross.
   bool TurnsLoad(const ArcStep& at);
-  // Rate of the load factor at a distance along the arc from where the path stands now; nothing where it is not found.
-  std::optional<double> RateBeyond(double length);
   // Whether the step ends where a node that is pressed onto an open surface slides over an end of it.
   bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
-  void SetNextLength(const ArcStep& at);
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
   std::vector<double> CrossingPath(const Crossing& crossing) const;
   int StiffnessSign(const CurvePoint& point) const;

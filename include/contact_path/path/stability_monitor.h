@@ -40,8 +40,6 @@ class StabilityMonitor {
   bool HasSlips() const { return problem_.HasSlips(); }
   // Under the machine, at a point of the arc that the last increment is inside of: looked for anew, and not noted.
   Stability At(const PathPoint& point);
-  // In which a disturbance grows under dead loads, (du); empty = not known.
-  const Eigen::VectorXd& Direction() const { return noted_.dead.direction; }
 
  private:
   // Of a point under one machine after the other.
