@@ -85,11 +85,13 @@ Advance BranchMethod::TakeJump(const PathPoint& from) {
   }
   ++increments_;
   const bool lands = jump.kind == Kind::kLands;
+  PathPoint point = lands ? jump.landing.point : from;
+  if (!lands) point.states = arc_.system().states();
   StartRecord found;
   Advance advance;
-  advance.end = SetOut(lands ? jump.landing.point : from, &found);
+  advance.end = SetOut(point, &found);
   if (!lands && advance.end) return Ended(*std::move(jump.end));
-  AcceptedPoint increment = lands ? std::move(jump.landing) : IncrementAt(from, from);
+  AcceptedPoint increment = lands ? std::move(jump.landing) : IncrementAt(std::move(point), from);
   increment.event = std::move(found.branches);
   increment.stability = std::move(found.stability);
   if (lands) {
@@ -194,8 +196,8 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
 IncrementKind BranchMethod::Facts::Kind() const {
   if (leaves_curve && load_turns) return IncrementKind::kCornerLimit;
   if (contact_event) return IncrementKind::kContactEvent;
+  if (smooth_limit && !leaves_curve) return IncrementKind::kSmoothLimit;
   if (bifurcation) return IncrementKind::kBifurcation;
-  if (smooth_limit) return IncrementKind::kSmoothLimit;
   if (sample) return IncrementKind::kSample;
   return onset ? IncrementKind::kOnset : IncrementKind::kRegular;
 }
@@ -208,7 +210,9 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
   facts->smooth_limit = kind == EventKind::kLimitPoint;
   if (facts->smooth_limit && at.event.crossing) {
     increment->event.null_vector = CrossingPath(*at.event.crossing);
-    facts->bifurcation = !limit_.IsFollowed() && TakeCrossingThatGoesOn(at);
+    const bool turns =
+        limit_.parameter().Sense(current_.first, current_.second, arc_.NumMotion(), tolerances::kRate) < 0;
+    if (!limit_.IsFollowed() && turns) return PassBifurcation(at, increment, facts);
   }
   return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, facts);
 }
@@ -221,20 +225,10 @@ std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
     const Eigen::VectorXd ahead = current_.x + length * branch.first + 0.5 * length * length * branch.second;
     const Correction there = arc_.CorrectOnPlane(ahead, branch.first.head(n));
     return there.converged && limit_.parameter().Rate(there.x - current_.x, n) > 0.0 &&
-           limit_.monitor()->At(arc_.system().Unpack(there.x)).verdict == Verdict::kStable;
+           (limit_.monitor() == nullptr ||
+            limit_.monitor()->At(arc_.system().Unpack(there.x)).verdict == Verdict::kStable);
   };
   return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
-}
-
-bool BranchMethod::TakeCrossingThatGoesOn(const ArcStep& at) {
-  const std::vector<Branch> branches =
-      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, limit_.parameter());
-  const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
-    return limit_.parameter().Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
-  });
-  if (found == branches.end()) return false;
-  TakeCurve(found->first, found->second, arc_.LoadFactor(), &current_);
-  return true;
 }
 
 std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
@@ -246,12 +240,20 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   const std::vector<Branch> branches =
       BifurcationBranches(arc_, model_.contacts, *at.event.crossing, limit_.parameter());
   RecordBranches(branches, record);
-  const bool stays_stable = !limit_.IsFollowed() && limit_.monitor() != nullptr;
-  const std::size_t stable = stays_stable ? StableBranch(branches) : branches.size();
-  facts->stable_ahead = stable < branches.size();
+  const std::size_t stable = limit_.IsFollowed() ? branches.size() : StableBranch(branches);
+  facts->stable_ahead = limit_.monitor() != nullptr && stable < branches.size();
+  const auto goes_on = [&](const Branch& branch) {
+    return limit_.parameter().Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
+  };
+  auto best = branches.begin();
+  if (stable < branches.size())
+    best += static_cast<std::ptrdiff_t>(stable);
+  else if (!limit_.IsFollowed() && !goes_on(*best))
+    best = std::find_if(branches.begin(), branches.end(), goes_on);
+  if (best == branches.end()) best = branches.begin();
   End end_here;
-  const std::optional<std::size_t> taken =
-      ChosenOf(branches, options_.ChoiceAt(increments_, events_), facts->stable_ahead ? stable : 0, &end_here);
+  const std::optional<std::size_t> taken = ChosenOf(branches, options_.ChoiceAt(increments_, events_),
+                                                    static_cast<std::size_t>(best - branches.begin()), &end_here);
   if (!taken) return end_here;
   record->taken = static_cast<int>(*taken) + 1;
   if (*taken == 0) return std::nullopt;
@@ -426,7 +428,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   step_length_ = std::min(options_.step, at->rejected > 0 ? 1.5 * at->tried : 2.0 * step_length_);
   const bool decides_behind = limit_.Note(
       {increment.point, at->step.end, current_, NullDirections(*at), at->event.Kind() == EventKind::kContactEvent,
-       facts.bifurcation, facts.stable_ahead, departure_.ToleranceAt(increment.point)},
+       at->event.crossing.has_value(), facts.stable_ahead, departure_.ToleranceAt(increment.point)},
       &increment.stability, &advance.end);
   if (decides_behind) step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
   increment.solve.next_step = limit_.Leaves() ? 0.0 : step_length_;

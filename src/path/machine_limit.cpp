@@ -1,6 +1,5 @@
 #include "contact_path/path/machine_limit.h"
 
-#include <cmath>
 #include <utility>
 
 #include "contact_path/path/sentences.h"
@@ -46,10 +45,10 @@ bool MachineLimit::Note(const Place& place, StabilityRecord* record, std::option
   const bool unstable = IsUnstable();
   // Where curves cross, directions without stiffness decide to a higher order: right behind, the machine tells.
   const bool decides_behind =
-      place.bifurcation && !none && !turns && unstable && flat > 0 && monitor_->UnderMachine().directions <= flat;
+      place.crossing && !none && !turns && unstable && flat > 0 && monitor_->UnderMachine().directions <= flat;
   if (place.stable_ahead || (decides_behind && at_limit_ == AtLimit::kJump)) {
     Verdict& verdict = machine_.IsDead() ? record->stability : record->stability_controlled;
-    if (machine_.IsDead() || std::isinf(machine_.stiffness)) verdict = Verdict::kNotProved;
+    verdict = Verdict::kNotProved;
     if (machine_.IsDead()) record->unstable_directions = -1;
     record->critical_stiffness = -1.0;
     return !place.stable_ahead;

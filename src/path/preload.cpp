@@ -81,7 +81,8 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
         preload.done = true;
         return preload;
       }
-      if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
+      if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit ||
+          (advance.end && advance.end->reason == EndReason::kAtLimit))
         return end(EndReason::kPathEnd, {{sentences::kLimitPointOfLoads, {}, preload.point.s / target}});
     }
     if (advance.end) return end(advance.end->reason, advance.end->causes);

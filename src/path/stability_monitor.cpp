@@ -79,7 +79,9 @@ void StabilityMonitor::Follow(const CurvePoint& at, int falls) {
 double StabilityMonitor::CriticalStiffness(const Verdicts& of, const CurvePoint* at) const {
   const bool unstable = of.dead.verdict == Verdict::kUnstable;
   if (of.dead.verdict == Verdict::kStable) return 0.0;
-  if (unstable && of.controlled.verdict == Verdict::kUnstable) return std::numeric_limits<double>::infinity();
+  // Where contacts slide, a softer machine may hold what a rigid one does not.
+  if (unstable && of.controlled.verdict == Verdict::kUnstable)
+    return of.under_machine.verdict == Verdict::kStable ? -1.0 : std::numeric_limits<double>::infinity();
   if (unstable && of.controlled.verdict == Verdict::kStable && of.dead.directions == 1 && at != nullptr) {
     if (at->is_limit) return 0.0;
     const Eigen::Index nd = model_.structure.NumDofs();
@@ -92,7 +94,7 @@ double StabilityMonitor::CriticalStiffness(const Verdicts& of, const CurvePoint*
 void StabilityMonitor::Write(const Verdicts& of, const CurvePoint* at) {
   noted_ = of;
   record_.stability = of.dead.verdict;
-  record_.stability_controlled = of.controlled.verdict;
+  record_.stability_controlled = (machine_.IsDead() ? of.controlled : of.under_machine).verdict;
   record_.unstable_directions = of.dead.directions;
   const double stiffness = CriticalStiffness(of, at);
   record_.critical_stiffness = stiffness > 0.0 ? stiffness * model_.SizeOfLoads().unit_of_stiffness : stiffness;

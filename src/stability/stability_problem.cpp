@@ -135,6 +135,7 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   }
   sign_ = negative_ % 2 == 0 ? 1 : -1;
   H_.resize(count, count);
+  stiffest_slip_ = 0.0;
   load_of_slips_.resize(count);
   if (count == 0 && symmetric_) return true;
 
@@ -167,8 +168,10 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   w_of_load_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Slip& slip = slips_[static_cast<std::size_t>(i)];
-    H_.row(i) = slip.sense * solutions.row(slip.tangent).segment(1, count) +
-                slip.friction * solutions.row(slip.normal).segment(1, count);
+    const Eigen::RowVectorXd along = slip.sense * solutions.row(slip.tangent).segment(1, count),
+                             across = slip.friction * solutions.row(slip.normal).segment(1, count);
+    H_.row(i) = along + across;
+    stiffest_slip_ = std::max({stiffest_slip_, along.cwiseAbs().maxCoeff(), across.cwiseAbs().maxCoeff()});
     w_of_load_[i] = slip.sense * solutions(slip.tangent, 0) + slip.friction * solutions(slip.normal, 0);
   }
   return H_.allFinite();
@@ -205,7 +208,7 @@ double StabilityProblem::PossibleSense() const {
     const Slip& slip = slips_[static_cast<std::size_t>(k)];
     slips[k] = slip.sense * forces_.col(slip.tangent - structure_.NumDofs()).dot(null_.col(0));
   }
-  const double rounding = tolerances::kSameTangent * slips.cwiseAbs().maxCoeff();
+  const double rounding = tolerances::kSameTangent * null_.col(0).norm();
   if (slips.minCoeff() >= -rounding) return 1.0;
   return slips.maxCoeff() <= rounding ? -1.0 : 0.0;
 }
@@ -214,22 +217,14 @@ Stability StabilityProblem::Under(double compliance) const {
   Stability found;
   if (!covered_) return found;
   const bool dead = !std::isfinite(compliance) || structure_.ReferenceLoad().isZero(0.0);
-  if (!regular_) return found;
   // A machine may hold one of the null directions.
   const Eigen::VectorXd work = null_.transpose() * structure_.ReferenceLoad();
   const bool one_held = !dead && null_.cols() > 0 &&
                         work.cwiseAbs().maxCoeff() > tolerances::kSameTangent * structure_.ReferenceLoad().norm();
   const Eigen::Index free = null_.cols() - (one_held ? 1 : 0);
   const bool level = free > 0;
-  if (singular_) {
-    found.directions = static_cast<int>(negative_ + free);
-    found.verdict = found.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
-    if (level)
-      found.direction =
-          Normalised(one_held ? Eigen::VectorXd(null_.col(0) * work[1] - null_.col(1) * work[0]) : null_.col(0));
-    return found;
-  }
-  if (level) {
+  if (!regular_ && (singular_ || !level)) return found;
+  if (level && !singular_) {
     // Slips set out along it with the growth rate 0, if they are possible.
     const double sense = PossibleSense();
     if (sense == 0.0) return found;
@@ -245,14 +240,22 @@ Stability StabilityProblem::Under(double compliance) const {
   if (!dead) {
     double flexible = std::max(std::abs(load_compliance_), stiff_compliance_);
     for (Eigen::Index i = 0; i < H_.rows(); ++i)
-      flexible = std::max(flexible, load_of_slips_[i] * load_of_slips_[i] / H_.cwiseAbs().maxCoeff());
+      flexible = std::max(flexible, load_of_slips_[i] * load_of_slips_[i] / stiffest_slip_);
     if (flexible == 0.0) flexible = 1.0;
     if (std::abs(machine) <= tolerances::kRootOfRounding * flexible) machine = tolerances::kRootOfRounding * flexible;
   }
   // What rounding leaves of a compliance that is not negative: of a stiffness without a falling direction.
   if (slips_.empty() && negative_ == 0) machine = std::abs(machine);
   const double share = dead ? 0.0 : 1.0 / machine;
-  const Eigen::Index n0 = negative_ - (!dead && machine < 0.0 ? 1 : 0);
+  const Eigen::Index n0 = negative_ - (!dead && !(singular_ && one_held) && machine < 0.0 ? 1 : 0);
+  if (singular_) {
+    found.directions = static_cast<int>(n0 + free);
+    found.verdict = found.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
+    if (level)
+      found.direction =
+          Normalised(one_held ? Eigen::VectorXd(null_.col(0) * work[1] - null_.col(1) * work[0]) : null_.col(0));
+    return found;
+  }
   const int sign = dead || machine > 0.0 ? sign_ : -sign_;
 
   if (slips_.empty()) {

@@ -160,7 +160,7 @@ class StabilityChecks {
   // All must outlive the checks.
   StabilityChecks(const VerifiedStage& stage, Findings* findings, Verification* result);
 
-  void Check(const Increment& increment);
+  void Check(const Increment& increment, double machine_stiffness);
 
  private:
   // Components that are free at the increment, as CheckedState has them, then rotations; nothing where it is not

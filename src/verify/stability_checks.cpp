@@ -141,7 +141,7 @@ Eigen::MatrixXd StabilityChecks::Stiffness(const Increment& increment, const std
   return stiffness;
 }
 
-void StabilityChecks::Check(const Increment& increment) {
+void StabilityChecks::Check(const Increment& increment, double machine_stiffness) {
   const StabilityRecord& recorded = increment.stability;
   if (recorded.stability == Verdict::kNotAsked || recorded.stability == Verdict::kNotProved) return;
   ++result_.open_verdicts;
@@ -200,24 +200,25 @@ void StabilityChecks::Check(const Increment& increment) {
       findings_.Report("the strain energy less the work of the loads does not fall along the unstable direction");
   }
   if (stage_.Driven() || load.isZero(0.0)) return;
-  // A prescribed displacement of the loads: its multiplier makes one eigenvalue negative.
+  // The bordered matrix has minus the compliance of the machine in its corner, none for a prescribed displacement of
+  // the loads: its multiplier makes one eigenvalue negative.
+  const double unit = std::pow(stage_.driving.size, 2), border = dead.largest / load.norm();
+  const double compliance = machine_stiffness > 0.0 ? border * border * unit / machine_stiffness : 0.0;
   Eigen::MatrixXd bordered(size + 1, size + 1);
-  const Eigen::VectorXd border = dead.largest / load.norm() * load;
-  bordered << stiffness, border, border.transpose(), 0.0;
+  bordered << stiffness, border * load, border * load.transpose(), -compliance;
   const Inertia controlled = InertiaOf(bordered);
   if (!(controlled.smallest > kSingular + off)) return;
   const Verdict held = controlled.negative == 1 ? Verdict::kStable : Verdict::kUnstable;
   if (recorded.stability_controlled != Verdict::kNotProved && recorded.stability_controlled != held)
-    findings_.Report("under displacement control it is recorded as ", ToString(recorded.stability_controlled),
-                     ", but is ", ToString(held));
-  if (dead.negative != 1 || held != Verdict::kStable || recorded.critical_stiffness < 0.0) return;
+    findings_.Report("under the machine it is recorded as ", ToString(recorded.stability_controlled), ", but is ",
+                     ToString(held));
+  if (dead.negative != 1 || !(recorded.critical_stiffness > 0.0) || std::isinf(recorded.critical_stiffness)) return;
   const Eigen::VectorXd by_force = stiffness.fullPivLu().solve(load);
   const double critical = -1.0 / load.dot(by_force);
   // Residuals of kExact leave the place open by their share of the softest direction, and the stiffness follows the
   // place.
   const double open =
       (off + kExact + kExact / dead.smallest) * dead.largest * by_force.squaredNorm() * critical * critical;
-  const double unit = std::pow(stage_.driving.size, 2);
   if (!(std::abs(recorded.critical_stiffness - critical * unit) <= open * unit))
     findings_.Report("the critical stiffness is recorded as ", recorded.critical_stiffness, ", but is ",
                      critical * unit);

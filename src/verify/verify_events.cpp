@@ -186,7 +186,7 @@ class EventVerifier {
     const BranchChoice* const choice = ChoiceFor(now);
     const int wanted = choice == nullptr ? 1 : std::max(choice->branch, 1);
     // Behind a bifurcation the machine goes on along the curve that is stable.
-    const bool by_machine = choice == nullptr && now.kind == IncrementKind::kBifurcation &&
+    const bool by_machine = choice == nullptr && event.branches[0].turn == 0.0 &&
                             request_.options.at_limit != AtLimit::kFollow &&
                             event.branches[static_cast<std::size_t>(event.taken) - 1].parameter_rate >= -kRate;
     if (event.taken != wanted && !by_machine)

@@ -108,7 +108,7 @@ class StageVerifier {
       } else if (increment.kind != IncrementKind::kRegular || increment.index % full_state_every_ == 0) {
         findings_.Report("has no state, though full_state_every = ", full_state_every_, " wants it");
       }
-      stability_.Check(increment);
+      stability_.Check(increment, options_.machine_stiffness);
       CheckEvent(increment);
       CheckLimit();
     }
@@ -206,12 +206,11 @@ class StageVerifier {
     const double unit = machine ? stage_.scaling.length : stage_.scaling.load_factor;
     findings_.Bound("the path parameter goes back", -change / unit,
                     kSingular * (1.0 + std::abs(machine ? increment.setting : increment.load_factor) / unit));
-    if (increment.kind == IncrementKind::kJump || before.kind == IncrementKind::kBifurcation) return;
-    const StabilityRecord& at = before.stability;
-    const bool unstable = !machine                ? at.stability == Verdict::kUnstable
-                          : std::isinf(stiffness) ? at.stability_controlled == Verdict::kUnstable
-                                                  : at.critical_stiffness > stiffness * (1.0 + kSingular);
-    if (unstable) findings_.Report("is reached along a path from a point that is unstable under the machine");
+    if (increment.kind == IncrementKind::kJump || before.kind == IncrementKind::kBifurcation ||
+        !(increment.arc_length > before.arc_length))
+      return;
+    if ((machine ? before.stability.stability_controlled : before.stability.stability) == Verdict::kUnstable)
+      findings_.Report("is reached along a path from a point that is unstable under the machine");
   }
 
   // What method branch records where branches part. From the last increment of a stage no branch is taken.
@@ -222,7 +221,7 @@ class StageVerifier {
     if (event && !jumps && increment.event.branches.empty()) findings_.Report("an event without branches");
     // Where a choice names an increment, its branches are on record, too.
     const bool numbered = increment.event.number != 0 && !increment.event.branches.empty();
-    if (numbered && !event && increment.kind != IncrementKind::kBifurcation) findings_.Report("branches, but no event");
+    if (numbered && !event && increment.event.null_vector.empty()) findings_.Report("branches, but no event");
     if (event && !jumps && increment.event.taken == 0) findings_.Report("an event where no branch is taken");
     // At a smooth limit point another path may cross too.
     const bool crosses = !increment.event.null_vector.empty();

@@ -417,7 +417,7 @@ TEST(VerifyPath, FindsVerdictsThatWereChanged) {
   expect(rising, "is recorded as unstable, but is stable", [](auto* of) { of->stability = Verdict::kUnstable; });
   expect(falling, "is recorded as stable, but is unstable", [](auto* of) { of->stability = Verdict::kStable; });
   expect(falling, "unstable directions are recorded as 2, but are 1", [](auto* of) { of->unstable_directions = 2; });
-  expect(falling, "under displacement control it is recorded as unstable",
+  expect(falling, "under the machine it is recorded as unstable",
          [](auto* of) { of->stability_controlled = Verdict::kUnstable; });
   expect(falling, "the critical stiffness is recorded as", [](auto* of) { of->critical_stiffness *= 1.001; });
   expect(falling, "does not fall along the unstable direction", [](auto* of) {

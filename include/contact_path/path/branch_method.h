@@ -82,8 +82,6 @@ class BranchMethod : public PathMethod {
   std::size_t StableBranch(const std::vector<Branch>& branches);
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
   std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
-  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if that goes on.
-  bool TakeCrossingThatGoesOn(const ArcStep& at);
   std::optional<End> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   std::optional<End> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   // Where branch_choices names the increment: takes a branch there. The increment keeps its kind if that is the path

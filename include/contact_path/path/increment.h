@@ -37,7 +37,7 @@ enum class IncrementKind {
 // Of an increment.
 struct StabilityRecord {
   Verdict stability = Verdict::kNotAsked;             // under dead loads: the load factor keeps its value
-  Verdict stability_controlled = Verdict::kNotAsked;  // the displacement of the loads keeps its value
+  Verdict stability_controlled = Verdict::kNotAsked;  // under the machine; without one, their displacement does
   int unstable_directions = -1;                       // under dead loads; -1 = not known
   // Above this stiffness K of the machine (TraceOptions::machine_stiffness) the point is stable; 0 = also under dead
   // loads, infinite = under no machine, -1 = not known.

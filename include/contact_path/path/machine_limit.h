@@ -41,7 +41,7 @@ class MachineLimit {
     const CurvePoint& arrives;        // on the curve on which it was reached
     const CurvePoint& leaves;         // on the one on which the path goes on, if it does
     Eigen::MatrixXd null_directions;  // of the tangent at fixed load factor, columns du, where it is singular
-    bool contact_event = false, bifurcation = false;
+    bool contact_event = false, crossing = false;
     bool stable_ahead = false;  // though the point itself has a direction without stiffness
     const ActiveSetTolerance& tolerance;
   };

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_STABILITY_JUMP_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -32,7 +33,7 @@ struct Landing {
   double loads = 0.0;     // of all loads, constant and scaled
   double stored = 0.0;    // strain energy gained
 
-  double energy_released() const { return loads - friction - stored; }
+  double energy_released() const { return std::max(0.0, loads - friction - stored); }
 };
 
 struct JumpResult {

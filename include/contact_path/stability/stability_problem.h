@@ -92,6 +92,7 @@ class StabilityProblem {
   Eigen::VectorXd by_load_;        // du by a unit of s
   Eigen::MatrixXd motions_;        // by unit slips, columns
   Eigen::MatrixXd H_;
+  double stiffest_slip_ = 0.0;     // largest term of an entry of H, whose terms may cancel
   Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
   Eigen::MatrixXd null_;           // columns du; none where the equations are not known to be singular
