@@ -56,7 +56,7 @@ class MachineLimit {
       kEnds,         // nowhere
       kSetsOutAnew,  // back, from an event: what rests may set out on any branch, also on that of arrival, which the
                      // list of the event leaves out
-      kGoesOn,  // back, where a disturbance sets out too slowly to be followed: it does so right behind
+      kGoesOn,       // back, where a disturbance sets out too slowly to be followed: it does so right behind
     };
     Kind kind = Kind::kEnds;
     AcceptedPoint landing = {};
