@@ -47,8 +47,7 @@ struct JumpResult {
 };
 
 // push: the direction (u) in which the structure is disturbed, NumDofs(); its length does not matter. Both signs are
-// tried, + first. Empty: in which a disturbance is known to grow, or else generic. checked: the other drags are tried,
-// too.
+// tried, + first. checked: the other drags are tried, too.
 JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
                 const Eigen::VectorXd& push, const Machine& machine, bool checked,
                 const std::function<bool()>& cancelled);
