@@ -107,51 +107,52 @@ TEST(Onset, OfUnequalColumnsIsThatOfTheSoftest) {
   EXPECT_NEAR(load, OnsetOf({{0.9}, 1e4, 60, false}), 1e-8 * load);
 }
 
-// A foot slides up a slope, drawn by a load, and lets go before the load turns; a part that is not touched stands
-// beside.
-TEST(Onset, OfASlidingFootIsTheSameBesideIdleParts) {
-  std::vector<double> found;
-  for (const int idle : {0, 3, 30}) {
-    TraceRequest request;
-    Scene& scene = request.scene;
-    scene.name = "slope";
-    scene.nodes = {{"l", -1.0, 0.0, true, true}, {"a", 0.0, 0.38225363323705064}, {"r", 1.0, 0.0}};
-    for (const char* const foot : {"l", "r"}) {
-      Bar bar;
-      bar.nodes = {foot, "a"};
-      bar.EA = 1.0;
-      scene.bars.push_back(bar);
-    }
-    scene.superelements = {{{"r"}, {2.58920966170029, 0.0, 0.0, 2.58920966170029}}};
-    scene.loads = {{"a", 0.0, -1.0, false},
-                   {"r", -0.02616129496928469, -0.027015297742618898, true},
-                   {"r", -3.9316963685525654, 3.8074082842737496, false}};
-    Obstacle floor;
-    floor.name = "floor";
-    floor.px = 1.0;
-    floor.nx = 0.6956611180791222;
-    floor.ny = 0.7183701057205161;
-    floor.friction = 3.0;
-    scene.obstacles = {floor};
-    ContactCandidate contact;
-    contact.node = "r";
-    contact.obstacle = "floor";
-    scene.contacts = {contact};
-    if (idle > 0) {
-      scene.nodes.push_back({"g", 5.0, 0.0, true, true});
-      scene.nodes.back().fixed_rotation = true;
-      scene.nodes.push_back({"e", 6.0, 0.0});
-      scene.beams = {Between("idle", "g", "e", 1.0, 1.0, idle)};
-    }
-    request.options.stop = {{"a.y", "<", -0.19}};
-    const TracedPath path = TraceIncrements(request);
-    const Increment* const onset = FirstUnstable(path);
-    ASSERT_NE(onset, nullptr) << idle;
-    EXPECT_EQ(onset->kind, IncrementKind::kOnset) << idle;
-    found.push_back(onset->load_factor);
+// A foot slides up a slope, drawn by a load; a part that is not touched stands beside. EI: of the leg that slides; 0: a
+// bar.
+TraceRequest SlidingFoot(double friction, double EI, int idle) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "slope";
+  scene.nodes = {{"l", -1.0, 0.0, true, true}, {"a", 0.0, 0.38225363323705064}, {"r", 1.0, 0.0}};
+  scene.bars = {{{"l", "a"}, 1.0}};
+  if (EI > 0.0) {
+    scene.beams.push_back(Between("leg", "a", "r", 1.0, EI, 5));
+    scene.beams.back().hinged = {true, true};
+  } else {
+    scene.bars.push_back({{"r", "a"}, 1.0});
   }
-  EXPECT_NEAR(found[0], 0.02074457017, 1e-9);
-  for (const double load : found) EXPECT_NEAR(load, found[0], 1e-9);
+  scene.superelements = {{{"r"}, {2.58920966170029, 0.0, 0.0, 2.58920966170029}}};
+  scene.loads = {{"a", 0.0, -1.0, false},
+                 {"r", -0.02616129496928469, -0.027015297742618898, true},
+                 {"r", -3.9316963685525654, 3.8074082842737496, false}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 1.0, 0.0, 0.6956611180791222, 0.7183701057205161, friction}};
+  scene.contacts = {{"r", "floor"}};
+  if (idle > 0) {
+    scene.nodes.push_back({"g", 5.0, 0.0, true, true});
+    scene.nodes.back().fixed_rotation = true;
+    scene.nodes.push_back({"e", 6.0, 0.0});
+    scene.beams.push_back(Between("idle", "g", "e", 1.0, 1.0, idle));
+  }
+  request.options.stop = {{"a.y", "<", -0.19}};
+  return request;
+}
+
+// The foot lets go before the load turns, or its leg buckles while it slides.
+TEST(Onset, OfASlidingFootIsTheSameBesideIdleParts) {
+  struct Foot {
+    double friction, EI, load;
+    IncrementKind kind;
+  };
+  for (const Foot& foot : {Foot{3.0, 0.0, 0.02074457017, IncrementKind::kOnset},
+                           Foot{1.0, 2e-3, 0.011419149442, IncrementKind::kBifurcation},
+                           Foot{2.0, 4e-3, 0.019307585923, IncrementKind::kBifurcation}})
+    for (const int idle : {0, 3, 30}) {
+      const TracedPath path = TraceIncrements(SlidingFoot(foot.friction, foot.EI, idle));
+      const Increment* const onset = FirstUnstable(path);
+      ASSERT_NE(onset, nullptr) << idle;
+      EXPECT_EQ(onset->kind, foot.kind) << idle;
+      EXPECT_NEAR(onset->load_factor, foot.load, 1e-9) << idle;
+    }
 }
 
 // Where no contact slides, what dead loads leave stable a held displacement does, too: a node that its contacts hold
