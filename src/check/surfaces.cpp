@@ -93,6 +93,7 @@ class Walk : public Surface {
   template <typename Piece, typename LengthOf>
   void MakeSearch(const std::vector<Piece>& pieces, LengthOf length_of) {
     std::vector<Around> around;
+    around.reserve(pieces.size());
     for (const Piece& piece : pieces) around.push_back({piece.from, length_of(piece)});
     search_ = NearestPiece(std::move(around));
   }

@@ -62,8 +62,8 @@ inline constexpr CsvColumn kCsvColumns[] = {
 // state of the stream.
 class CsvWriter {
  public:
-  // `request` must be sound (scene/validate.h).
-  explicit CsvWriter(const TraceRequest& request);
+  // The request must be sound (scene/validate.h).
+  explicit CsvWriter(const TraceRequest& given);
 
   void WriteHeader(std::ostream& out) const;
   void WriteRow(const Increment& increment, std::ostream& out) const;
