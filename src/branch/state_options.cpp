@@ -38,7 +38,7 @@ ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, st
                           const ActiveSetTolerance& tolerance) {
   const int patch = contact.KnownPatch(point.u, point.s, point.Patch(candidate));
   int before = patch, after = patch;  // where slip leads
-  if (contact.HasPatches()) {
+  if (contact.HasPatches() && !contact.Seamless()) {
     const double xi = contact.Xi(point.u, point.s, patch);
     const XiRange range = contact.RangeOf(patch);
     if (xi <= range.begin + tolerance.gap) --before;

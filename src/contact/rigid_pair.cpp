@@ -18,6 +18,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
   traits.friction = friction;
   traits.curved = !surface_->Flat() || turn_ != 0.0;
   traits.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
+  traits.seamless = surface_->Seamless();
   const XiRange range = surface_->Range();
   if (surface_->Closed()) traits.round = range.end - range.begin;
   if (slip_origin) traits.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);

@@ -27,8 +27,9 @@ void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constrai
 }
 
 void FixedStateSystem::AddPatchEnds(std::size_t contact, std::vector<Constraint>* inequalities) const {
-  if (!contacts_[contact]->HasPatches() || patches_[contact] == kNearestPatch) return;
-  const XiRange range = contacts_[contact]->RangeOf(patches_[contact]);
+  const ContactPair& pair = *contacts_[contact];
+  if (!pair.HasPatches() || pair.Seamless() || patches_[contact] == kNearestPatch) return;
+  const XiRange range = pair.RangeOf(patches_[contact]);
   const auto i = static_cast<int>(contact);
   if (std::isfinite(range.begin)) inequalities->push_back({i, Inequality::kPatchBegin});
   if (std::isfinite(range.end)) inequalities->push_back({i, Inequality::kPatchEnd});
@@ -64,6 +65,8 @@ std::vector<Constraint> FixedStateSystem::LimitsInReach(const Eigen::VectorXd& x
   if (!tracker_) tracker_.emplace(contacts_);
   in_reach_ = tracker_->InReach(x.head(NumDofs()), s, reach);
   near->clear();
+  for (const std::size_t i : touching_)
+    if (contacts_[i]->Seamless()) patches_[i] = contacts_[i]->PatchAfter(x, s, patches_[i]);
   for (const std::size_t i : in_reach_) {
     if (states_[i] != ContactState::kOpen) continue;
     if (contacts_[i]->HasPatches()) patches_[i] = contacts_[i]->PatchAt(x, s);
@@ -78,7 +81,7 @@ std::vector<Constraint> FixedStateSystem::LimitsInReach(const Eigen::VectorXd& x
 
 bool FixedStateSystem::BeyondReach(const Eigen::VectorXd& x) const {
   return std::any_of(in_reach_.begin(), in_reach_.end(), [&](std::size_t i) {
-    if (states_[i] != ContactState::kOpen || !contacts_[i]->HasPatches()) return false;
+    if (states_[i] != ContactState::kOpen || !contacts_[i]->HasPatches() || contacts_[i]->Seamless()) return false;
     const ContactPair& pair = *contacts_[i];
     const int patch = pair.PatchAt(x, x[NumDofs()]);
     if (patch == patches_[i]) return false;

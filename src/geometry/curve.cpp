@@ -187,8 +187,8 @@ Vector2d CubicPiece::PointAt(double xi) const {
   return begin_ + Offset(tau);
 }
 
-Curve::Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi)
-    : pieces_(std::move(pieces)), begins_{xi}, closed_(closed) {
+Curve::Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi, bool seamless)
+    : pieces_(std::move(pieces)), begins_{xi}, closed_(closed), seamless_(seamless) {
   std::vector<Capsule> capsules;
   for (const auto& piece : pieces_) {
     capsules.push_back(AroundPiece(*piece));
@@ -263,7 +263,7 @@ std::unique_ptr<const Curve> MakeCircle(const Vector2d& centre, double radius, b
   std::vector<std::unique_ptr<const CurvePiece>> pieces;
   for (const double sign : {1.0, -1.0})
     pieces.push_back(std::make_unique<ArcPiece>(centre, radius, sign * first, M_PI, side));
-  return std::make_unique<Curve>(std::move(pieces), true, -0.5 * M_PI * radius);
+  return std::make_unique<Curve>(std::move(pieces), true, -0.5 * M_PI * radius, true);
 }
 
 }  // namespace contact_path

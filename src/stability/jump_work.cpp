@@ -9,8 +9,9 @@ namespace contact_path {
 void WorkOfMotion::Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work) const {
   bool impact = pushed;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    impact = impact || step.closed_after[i] != 0.0 ||
-             (from.states[i] != ContactState::kOpen && from.Patch(i) != step.point.Patch(i));
+    impact =
+        impact || step.closed_after[i] != 0.0 ||
+        (from.states[i] != ContactState::kOpen && !contacts_[i]->Seamless() && from.Patch(i) != step.point.Patch(i));
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (contacts_[i]->Frictional()) work->friction += OfContact(i, from, step, impact, work);
   work->after_impact = impact;

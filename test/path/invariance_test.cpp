@@ -18,15 +18,11 @@ constexpr double kDegree = 0.017453292519943295;
 // Of a node that is held along one axis only, which cannot be said in a turned frame; a spring can.
 constexpr double kHeld = 1e4;
 
-// Angles [degrees]. The halves of a circle meet at its leftmost and at its rightmost point, where a node that slides
-// over has an event: the path is the same in frames in which no node comes there.
 struct Case {
   const char* name;
   double step;
   int max_increments;
   Method method = Method::kMpec;
-  double turn = 37.0;
-  double from = 0.0;  // turned by that much before anything else
 };
 
 std::string NameOf(const Case& scene) {
@@ -42,7 +38,7 @@ class Invariance : public testing::TestWithParam<Case> {
     request.options.max_increments = GetParam().max_increments;
     request.options.stop.clear();
     HoldBySprings(&request.scene);
-    return GetParam().from == 0.0 ? request : Rotate(std::move(request), GetParam().from * kDegree);
+    return request;
   }
   static void HoldBySprings(Scene* scene) {
     for (Node& node : scene->nodes) {
@@ -71,12 +67,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"arch19", 0.1, 60}, Case{"lee_frame", 0.0, 150, Method::kBranch},
                     Case{"williams_toggle", 0.0, 100, Method::kBranch}, Case{"rough_arch", 0.0, 100, Method::kBranch},
                     Case{"portal_frame", 0.0, 60, Method::kBranch}, Case{"cantilever_block", 0.0, 40, Method::kBranch},
-                    Case{"peg", 0.0, 60, Method::kBranch}, Case{"rope", 0.0, 50, Method::kBranch, 28.0},
+                    Case{"peg", 0.0, 60, Method::kBranch}, Case{"rope", 0.0, 50, Method::kBranch},
                     Case{"cam", 0.0, 150, Method::kBranch}, Case{"snap_hook", 0.0, 100, Method::kBranch},
-                    Case{"fin_ray", 0.0, 250, Method::kBranch, 20.0, 80.0},
-                    Case{"peg_in_hole", 0.0, 180, Method::kBranch}, Case{"two_blocks", 0.0, 80, Method::kBranch},
-                    Case{"ring_on_ring", 0.0, 210, Method::kBranch}, Case{"crushed_ring", 0.0, 180, Method::kBranch},
-                    Case{"lee_frame", 0.0, 20}, Case{"cantilever_block", 0.5, 10}),
+                    Case{"fin_ray", 0.0, 250, Method::kBranch}, Case{"peg_in_hole", 0.0, 180, Method::kBranch},
+                    Case{"two_blocks", 0.0, 80, Method::kBranch}, Case{"ring_on_ring", 0.0, 210, Method::kBranch},
+                    Case{"crushed_ring", 0.0, 180, Method::kBranch}, Case{"lee_frame", 0.0, 20},
+                    Case{"cantilever_block", 0.5, 10}),
     CaseName);
 
 TEST_P(Invariance, PathIsLongEnoughToMeanSomething) {
@@ -92,8 +88,8 @@ TEST_P(Invariance, Units) {
 }
 
 TEST_P(Invariance, Rotation) {
-  const double angle = GetParam().turn * kDegree;
-  ExpectSamePath(UndoRotation(TraceIncrements(Rotate(Request(), angle)), angle), Expected(), kSame);
+  constexpr double kAngle = 37.0 * kDegree;
+  ExpectSamePath(UndoRotation(TraceIncrements(Rotate(Request(), kAngle)), kAngle), Expected(), kSame);
 }
 
 TEST_P(Invariance, MirrorImage) { ExpectSamePath(UndoMirror(TraceIncrements(Mirror(Request()))), Expected(), kSame); }

@@ -78,12 +78,6 @@ def other_sides(traced):
     return traced._replace(points=[flip(point) for point in traced.points])
 
 
-def without_seams(traced):
-    """Without events at which no state changes: where a node slides over the leftmost or rightmost point of a circle."""
-    return traced._replace(points=[point for point in traced.points
-                                   if point.kind != 'contact_event' or point.before != point.after])
-
-
 def states_that_differ(one, other):
     return ', '.join('%s %s, not %s' % (name, one[name], state) for name, state in other.items() if one and one[name] != state)
 
@@ -147,11 +141,9 @@ def differences(arguments, file, directory):
     """The number of variants of a scene, and what differs: [(variant, difference)]."""
     options = [word for name in ('method', 'accuracy') if getattr(arguments, name) for word in ('--' + name, getattr(arguments, name))]
     scene, rng = Scene.read(file), random.Random(arguments.seed)
-    circles = any(obstacle.get('shape') == 'circle' for obstacle in variants.entries(scene.request, 'obstacles'))
 
     def traced(request, name):
-        found = trace(scene._of(request), os.path.join(directory, name), options, arguments.seconds)
-        return without_seams(found) if circles else found
+        return trace(scene._of(request), os.path.join(directory, name), options, arguments.seconds)
 
     given = traced(scene.request, 'given.yaml')
     found, number = [], 0

@@ -42,6 +42,8 @@ class ContactPair {
   }
   // Whether the surface has patches with ends, and not one patch without ends.
   bool HasPatches() const { return traits_.has_patches; }
+  // Whether a path may go from patch to patch without an event.
+  bool Seamless() const { return traits_.seamless; }
   // Whether Hessians can be other than zero.
   bool Curved() const { return traits_.curved; }
   // Whether the friction force follows the motion since the start of the program, and not since the last increment.
@@ -119,7 +121,7 @@ class ContactPair {
     bool deformable = false;
     double friction = 0.0;
     double force_unit = 1.0;
-    bool has_patches = false;
+    bool has_patches = false, seamless = false;
     bool curved = false;
     Terms moves_gap, moves_xi;
     double largest_gap_rate = 1.0;

@@ -97,11 +97,12 @@ class CubicPiece : public CurvePiece {
 // is closed, the first piece begins where the last one ends.
 class Curve : public Surface {
  public:
-  // At least one piece. xi: of the begin of the first piece.
-  Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi = 0.0);
+  // At least one piece. xi: of the begin of the first piece. seamless: the pieces are of one smooth curve.
+  Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi = 0.0, bool seamless = false);
 
   bool Flat() const override { return false; }
   bool Closed() const override { return closed_; }
+  bool Seamless() const override { return seamless_; }
   int NumPatches() const override { return static_cast<int>(pieces_.size()); }
   XiRange RangeOf(int patch) const override;
   NearestFoot Nearest(const Eigen::Vector2d& x) const override;
@@ -121,7 +122,7 @@ class Curve : public Surface {
   std::vector<std::unique_ptr<const CurvePiece>> pieces_;
   CapsuleTree tree_;            // of the pieces
   std::vector<double> begins_;  // xi of the pieces, and of the end of the last one
-  bool closed_;
+  bool closed_, seamless_;
 };
 
 // A whole circle. Its admissible side is outside, or inside. Two patches, half a turn each; xi = 0 where the normal is

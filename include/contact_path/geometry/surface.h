@@ -49,7 +49,7 @@ struct NearestFoot {
 };
 
 // A curve with a tangent that is continuous, walked with the admissible side on the left. It consists of patches, on
-// which it is as smooth as a path needs it: from one patch to the next, curvature may jump. The arc coordinate is
+// which it is as smooth as a path needs it: from one patch to the next, curvature may jump, unless the curve is seamless. The arc coordinate is
 // continuous over all patches. Patches are numbered from 0 along the curve. On a closed curve any number is a patch:
 // patch + NumPatches() is the same place after one more round, and xi is larger by the length of the curve. Patches may
 // be left out: the curve has ends there, too.
@@ -60,6 +60,8 @@ class Surface {
   // Whether the curvature is zero everywhere: then gap and xi are affine in x.
   virtual bool Flat() const = 0;
   virtual bool Closed() const { return false; }
+  // Whether the curvature has all derivatives also where patches meet: which of them a foot is on decides nothing.
+  virtual bool Seamless() const { return false; }
   virtual int NumPatches() const { return 1; }  // of one round
   virtual XiRange RangeOf(int /*patch*/) const { return {}; }
   // Of a closed curve a patch of the first round, 0 to NumPatches() - 1.
