@@ -82,7 +82,8 @@ ActiveSetTolerance Departure::ToleranceAt(const PathPoint& point) const {
 Arrival Departure::StartArrival() const {
   Arrival arrival;
   arrival.is_start = true;
-  arrival.direction = options_.parameter.Gradient(model_.structure.NumDofs() + 1);
+  const Eigen::Index n = model_.structure.NumDofs() + 1;
+  arrival.direction = options_.parameter.WantedSense() * Eigen::VectorXd::Unit(n, n - 1);
   return arrival;
 }
 

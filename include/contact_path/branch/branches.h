@@ -43,7 +43,7 @@ struct Branch {
 
 // Where the point comes from.
 struct Arrival {
-  Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: PathParameter::Gradient()
+  Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: the load, whatever the machine is
   bool is_start = false;      // then the path parameter must go on, and there is no branch of arrival
   bool singular = false;      // another path crosses here: nearly singular counts as singular
   // After an arc that rests: the direction in which the path moved before that arc. To go on so is no turn either.

@@ -40,6 +40,7 @@ class PathParameter {
     return gradient_.size() == 0 ? Eigen::VectorXd(sense_ * Eigen::VectorXd::Unit(n, n - 1)) : gradient_;
   }
   bool IsLoadFactor() const { return gradient_.size() == 0; }
+  double WantedSense() const { return sense_; }
 
  private:
   bool IsRigid() const { return gradient_.size() > 0 && gradient_[gradient_.size() - 1] == 0.0; }
