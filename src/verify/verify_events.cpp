@@ -136,8 +136,8 @@ class EventVerifier {
       if (!(std::abs(branch.parameter_rate) <= 1.0 + kRate)) wrong("a rate of the path parameter beyond 1");
       if (!machine_ && !(std::abs(direction_ * branch.load_rate - branch.parameter_rate) <= kRate))
         wrong("the rate of the path parameter is not that of the load");
-      if (SetsOut(now) && !(std::abs(std::cos(branch.turn) - branch.parameter_rate) <= kRate))
-        wrong("the angle to the path parameter is not the one of its rate");
+      if (SetsOut(now) && !(std::abs(std::cos(branch.turn) - direction_ * branch.load_rate) <= kRate))
+        wrong("the angle to the load is not the one of its rate");
       if (now.contacts.empty()) continue;
       if (branch.states.size() != now.contacts.size()) {
         wrong("the number of states is not that of the contacts");

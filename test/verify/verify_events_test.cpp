@@ -100,7 +100,7 @@ const Tampering kTamperings[] = {
      "a negative dissipation rate"},
     {"Turn", Corners, [](auto& increments) { Taken(increments).turn = 0.1; }, "the branch taken turns by"},
     {"TurnOfStart", Corners, [](auto& increments) { increments[0].event.branches.at(0).turn += 0.1; },
-     "the angle to the path parameter"},
+     "the angle to the load"},
     {"OtherTaken", Corners,
      [](auto& increments) {
        Corner(increments).event.branches.push_back(Taken(increments));
