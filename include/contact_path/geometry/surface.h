@@ -49,10 +49,10 @@ struct NearestFoot {
 };
 
 // A curve with a tangent that is continuous, walked with the admissible side on the left. It consists of patches, on
-// which it is as smooth as a path needs it: from one patch to the next, curvature may jump, unless the curve is seamless. The arc coordinate is
-// continuous over all patches. Patches are numbered from 0 along the curve. On a closed curve any number is a patch:
-// patch + NumPatches() is the same place after one more round, and xi is larger by the length of the curve. Patches may
-// be left out: the curve has ends there, too.
+// which it is as smooth as a path needs it: from one patch to the next, curvature may jump, unless the curve is
+// seamless. The arc coordinate is continuous over all patches. Patches are numbered from 0 along the curve. On a closed
+// curve any number is a patch: patch + NumPatches() is the same place after one more round, and xi is larger by the
+// length of the curve. Patches may be left out: the curve has ends there, too.
 class Surface {
  public:
   virtual ~Surface() = default;
