@@ -65,8 +65,7 @@ std::vector<Constraint> FixedStateSystem::LimitsInReach(const Eigen::VectorXd& x
   if (!tracker_) tracker_.emplace(contacts_);
   in_reach_ = tracker_->InReach(x.head(NumDofs()), s, reach);
   near->clear();
-  for (const std::size_t i : touching_)
-    if (contacts_[i]->Seamless()) patches_[i] = contacts_[i]->PatchAfter(x, s, patches_[i]);
+  for (const std::size_t i : touching_) patches_[i] = contacts_[i]->PatchNow(x, s, patches_[i]);
   for (const std::size_t i : in_reach_) {
     if (states_[i] != ContactState::kOpen) continue;
     if (contacts_[i]->HasPatches()) patches_[i] = contacts_[i]->PatchAt(x, s);

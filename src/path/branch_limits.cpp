@@ -116,7 +116,7 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   next->at.step = MakeStep(at.step.start, *place, arc_.NumMotion());
   next->at.event = StepEvent();
   next->at.event.crossing = crossing;
-  Balance(next);
+  Balance(model_, arc_.system(), stored_, next);
   *increment = IncrementOf(at, from);
   if (limit_.monitor() != nullptr) NoteStability(*place, *increment, NullDirections(at));
   return true;

@@ -12,7 +12,6 @@
 namespace contact_path {
 namespace {
 
-constexpr int kMostShorter = 6;        // times half as long, for the energies
 constexpr int kMostEventsInPlace = 8;  // then the contacts chatter, and no branch is trusted
 constexpr double kAhead = 0.1;  // of the wanted step: where a branch, or a load that is level, is looked at again
 
@@ -245,15 +244,13 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   const auto goes_on = [&](const Branch& branch) {
     return limit_.parameter().Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
   };
-  auto best = branches.begin();
-  if (stable < branches.size())
-    best += static_cast<std::ptrdiff_t>(stable);
-  else if (!limit_.IsFollowed() && !goes_on(*best))
-    best = std::find_if(branches.begin(), branches.end(), goes_on);
-  if (best == branches.end()) best = branches.begin();
+  // Where none is known to be stable, the path itself goes on if it can.
+  std::size_t best = stable;
+  if (best == branches.size() && !limit_.IsFollowed())
+    best = static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), goes_on) - branches.begin());
   End end_here;
-  const std::optional<std::size_t> taken = ChosenOf(branches, options_.ChoiceAt(increments_, events_),
-                                                    static_cast<std::size_t>(best - branches.begin()), &end_here);
+  const std::optional<std::size_t> taken =
+      ChosenOf(branches, options_.ChoiceAt(increments_, events_), best < branches.size() ? best : 0, &end_here);
   if (!taken) return end_here;
   record->taken = static_cast<int>(*taken) + 1;
   if (*taken == 0) return std::nullopt;
@@ -335,53 +332,15 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
   return !model_.contacts[i]->HasPatch(next) && point.rn[constraint.contact] > force;
 }
 
-std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
-  const StepLimits limits = {options_.smallest_step, options_.step, options_.prediction, options_.smallest_cosine,
-                             options_.on_trial};
-  double length = step_length_;
-  std::optional<BalancedStep> best;
-  for (int shorter = 0; shorter <= kMostShorter; ++shorter) {
-    std::optional<ArcStep> at = NextStep(&arc_, current_, length, limits, ends_);
-    if (!at) break;
-    if (best) at->rejected += best->at.rejected + 1;
-    best.emplace();
-    best->at = *std::move(at);
-    if (Balance(&*best)) break;
-    if (options_.on_trial)
-      options_.on_trial(
-          {best->at.step.length, kEnergiesOff, {}, {{"work", best->work.loads}, {"friction", best->work.friction}}});
-    length = 0.5 * std::min(best->at.tried, best->at.step.length);
-    if (length < options_.smallest_step) break;
-  }
-  return best;
-}
-
-bool BranchMethod::Balance(BalancedStep* step) const {
-  const Step& of = step->at.step;
-  const double unit = model_.scaling.force * model_.scaling.length;
-  const auto stored_at = [&](const Eigen::VectorXd& x) {
-    return model_.structure.Energy(x.head(model_.structure.NumDofs())) * unit;
-  };
-  const double before = stored_ ? *stored_ : stored_at(of.start.x);
-  step->stored = before;
-  if (!(of.length > 0.0)) return true;
-  step->work = WorkOfStep(model_, arc_.system(), of);
-  step->stored = stored_at(of.end.x);
-  const double change = step->stored - before;
-  const double exchanged = std::abs(step->work.loads) + std::abs(step->work.friction) + std::abs(change);
-  return std::abs(step->work.loads - step->work.friction - change) <=
-         tolerances::kEnergyOfStep * exchanged + tolerances::kEqual * (before + unit);
-}
-
 Advance BranchMethod::Next(const PathPoint& from) {
   if (limit_.Leaves()) return TakeJump(from);
   if (departure_.ChangesReactions()) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
-  std::optional<BalancedStep> next = NextBalancedStep();
+  std::optional<BalancedStep> next = NextBalancedStep(model_, options_, &arc_, current_, step_length_, ends_, stored_);
   if (!next) return Ended(NoStep(from));
   ArcStep* const at = &next->at;
   std::optional<int> returned = EndAtReturn(from, at);
-  if (returned) Balance(&*next);  // of the shorter step
+  if (returned) Balance(model_, arc_.system(), stored_, &*next);  // of the shorter step
 
   AcceptedPoint increment = IncrementOf(*at, from);
   const bool onset = EndAtOnset(from, &*next, &increment);

@@ -21,9 +21,9 @@ MachineLimit::MachineLimit(const Model& model, const BranchOptions& options, std
       cancelled_(std::move(cancelled)),
       at_limit_(options.at_limit),
       landing_checks_(options.landing_checks),
-      machine_(MachineSetting(model, options.machine_stiffness).machine()),
-      parameter_(MachineSetting(model, options.machine_stiffness).Parameter(options.direction)),
-      monitor_(options.stability ? std::make_unique<StabilityMonitor>(model, machine_) : nullptr) {}
+      setting_(model, options.machine_stiffness),
+      parameter_(setting_.Parameter(options.direction)),
+      monitor_(options.stability ? std::make_unique<StabilityMonitor>(model, machine()) : nullptr) {}
 
 void MachineLimit::NoteStart(const PathPoint& point, const ActiveSetTolerance& tolerance, std::optional<End>* end) {
   if (!IsUnstable() || (*end && (*end)->reason != EndReason::kPathEnd) || IsFollowed()) return;
@@ -47,9 +47,9 @@ bool MachineLimit::Note(const Place& place, StabilityRecord* record, std::option
   const bool decides_behind =
       place.crossing && !none && !turns && unstable && flat > 0 && monitor_->UnderMachine().directions <= flat;
   if (place.stable_ahead || (decides_behind && at_limit_ == AtLimit::kJump)) {
-    Verdict& verdict = machine_.IsDead() ? record->stability : record->stability_controlled;
+    Verdict& verdict = machine().IsDead() ? record->stability : record->stability_controlled;
     verdict = Verdict::kNotProved;
-    if (machine_.IsDead()) record->unstable_directions = -1;
+    if (machine().IsDead()) record->unstable_directions = -1;
     record->critical_stiffness = -1.0;
     return !place.stable_ahead;
   }
@@ -90,7 +90,7 @@ Eigen::VectorXd MachineLimit::Push(const PathPoint& point, const Eigen::VectorXd
   }
   StabilityProblem problem(model_.structure, model_.contacts);
   problem.Set(released, {});
-  const Stability found = problem.Under(machine_.Compliance());
+  const Stability found = problem.Under(machine().Compliance());
   if (found.verdict != Verdict::kUnstable || found.direction.size() == 0) return along;
   return Towards(along, found.direction);
 }
@@ -98,7 +98,7 @@ Eigen::VectorXd MachineLimit::Push(const PathPoint& point, const Eigen::VectorXd
 MachineLimit::Outcome MachineLimit::TakeJump(const PathPoint& from, int number) {
   using Kind = Outcome::Kind;
   Leaving leaving = *std::exchange(leaving_, std::nullopt);
-  JumpResult jump = Jump(model_.structure, model_.contacts, from, leaving.push, machine_, landing_checks_, cancelled_);
+  JumpResult jump = Jump(model_.structure, model_.contacts, from, leaving.push, machine(), landing_checks_, cancelled_);
   if (jump.cancelled) return {Kind::kEnds, {}, End{EndReason::kCancelled, {{sentences::kCancelled}}}};
   if (jump.came_back) {
     const bool again = std::exchange(came_back_, true);

@@ -24,8 +24,8 @@ struct Work {
     // Slip since it has closed, or another has, for which the force at its end alone is known, or none. Drag makes
     // reactions of an impact there; the curve through those behind it leads back.
     double owed = 0.0;
-    std::optional<double>
-        behind;  // behind the last step that much was owed, and nothing of how the curve bends is counted
+    // What was owed behind the last step, of which nothing of how the curve bends has been counted.
+    std::optional<double> behind;
   };
   double friction = 0.0, loads = 0.0;
   std::vector<Slide> slides;

@@ -53,9 +53,9 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
   step.closed_after.assign(contacts_.size(), 0.0);
   Eigen::VectorXd references = SlipReferences(contacts_, from);
   PathPoint trial = from;
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (contacts_[i]->Seamless() && from.states[i] != ContactState::kOpen)
-      trial.patches[i] = contacts_[i]->PatchAfter(from.u, from.s, from.patches[i]);
+  for (std::size_t i = 0; i < trial.patches.size(); ++i)
+    if (from.states[i] != ContactState::kOpen)
+      trial.patches[i] = contacts_[i]->PatchNow(from.u, from.s, from.patches[i]);
   std::set<std::pair<std::vector<ContactState>, std::vector<int>>> tried;
   for (; step.rounds < kMostRounds; ++step.rounds) {
     system_.SetStates(trial.states, references, trial.patches);

@@ -72,12 +72,7 @@ TEST(LeaningBlocks, TwoContactsThatComeToRestTogether) {
   pad.thickness = 15.0;
   AddGrid(
       &scene, 12, 5, [](double x, double y) { return Eigen::Vector2d(20.0 * x, 10.0 * y); }, pad);
-  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
-  scene.obstacle_motions = {{"floor", 0.0, 0.8}};
-  for (Node& node : scene.nodes) {
-    node.fixed_x = node.fixed_y = node.y == 10.0;
-    if (node.y == 0.0) scene.contacts.push_back({node.name, "floor"});
-  }
+  PressOn({"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, 0.8, 10.0, 0.0, &scene);
   request.options.stop = {{"load_factor", ">", 1.0}};
   const TracedPath path = TraceIncrements(request);
   ExpectNoneLost(path);

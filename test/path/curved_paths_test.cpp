@@ -219,11 +219,12 @@ TEST(CurvedPaths, ATurningDrumTakesTheNodeAlongUntilItSlips) {
   scene.nodes[0] = {"p", 0.0, 1.0, false, false};
   scene.superelements[0].rest_positions = {0.0, 0.2};
   scene.obstacle_motions = {{"peg", 0.0, 0.0, -0.5, 0.0, 0.0}};  // clockwise: the node goes to the right
-  request.options.stop = {{"load_factor", ">", 2.0}};
+  request.options.stop = {{"load_factor", ">", 40.0}};
+  request.options.max_increments = 5000;
   const TracedPath path = TraceIncrements(request);
   ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
   ExpectProved(path);
-  bool slipped = false;
+  const Increment* slips = nullptr;  // the first increment that does
   for (const Increment& increment : path.increments) {
     const double angle = std::atan2(increment.positions[0], increment.positions[1]);
     const double nx = std::sin(angle), ny = std::cos(angle), ex = 1.3 * nx, ey = 0.8 * (ny - 0.2);
@@ -234,11 +235,16 @@ TEST(CurvedPaths, ATurningDrumTakesTheNodeAlongUntilItSlips) {
       EXPECT_NEAR(angle, 0.5 * increment.load_factor, kExact);
     }
     if (contact.state == ContactState::kSlipMinus) {
-      slipped = true;
+      if (slips == nullptr) slips = &increment;
       EXPECT_NEAR(contact.rt, kFriction * contact.rn, kExact);
     }
   }
-  EXPECT_TRUE(slipped);
+  // Then it rests, and the drum turns on below it, for three rounds without an event.
+  ASSERT_NE(slips, nullptr);
+  EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kContactEvent).size(), 1U);
+  const Increment& last = path.increments.back();
+  EXPECT_NEAR(last.dissipation - slips->dissipation,
+              0.5 * kFriction * last.contacts[0].rn * (last.load_factor - slips->load_factor), kExact);
 }
 
 // After nine radians the next stage begins on the drum as it stands: the node is on other patches of it than before.

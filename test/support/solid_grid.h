@@ -101,6 +101,16 @@ inline bool HasGridNode(const Scene& scene, int i, int j) {
   return false;
 }
 
+// Nodes at the height `held` are held; those at `touching` are candidates of the obstacle, which moves by dy.
+inline void PressOn(const Obstacle& obstacle, double dy, double held, double touching, Scene* scene) {
+  scene->obstacles = {obstacle};
+  scene->obstacle_motions = {{obstacle.name, 0.0, dy}};
+  for (Node& node : scene->nodes) {
+    node.fixed_x = node.fixed_y = node.y == held;
+    if (node.y == touching) scene->contacts.push_back({node.name, obstacle.name});
+  }
+}
+
 // A block of width 1 and height 1 whose top is displaced by -lean, held below, on nx x ny elements of so many nodes,
 // pressed by a rough plate that comes down by 0.2.
 inline TraceRequest PressedBlock(int nx, int ny, int nodes_per_element, double lean, double friction) {
@@ -113,12 +123,7 @@ inline TraceRequest PressedBlock(int nx, int ny, int nodes_per_element, double l
   block.nodes_per_element = nodes_per_element;
   AddGrid(
       &scene, nx, ny, [&](double x, double y) { return Eigen::Vector2d(x - lean * y, y); }, block);
-  scene.obstacles = {{"plate", ObstacleShape::kHalfPlane, 0.0, 1.0, 0.0, -1.0, friction}};
-  scene.obstacle_motions = {{"plate", 0.0, -1.0}};
-  for (Node& node : scene.nodes) {
-    node.fixed_x = node.fixed_y = node.y == 0.0;
-    if (node.y == 1.0) scene.contacts.push_back({node.name, "plate"});
-  }
+  PressOn({"plate", ObstacleShape::kHalfPlane, 0.0, 1.0, 0.0, -1.0, friction}, -1.0, 0.0, 1.0, &scene);
   request.options.stop = {{"load_factor", ">", 0.2}};
   return request;
 }

@@ -70,6 +70,11 @@ class ContactPair {
   virtual int PatchAt(const Eigen::VectorXd& u, double s) const = 0;
   // PatchAt(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
   virtual int PatchAfter(const Eigen::VectorXd& u, double s, int from) const = 0;
+  // At the start of a step, of a contact that touches and has come along the patch `from`: of a seamless surface
+  // PatchAfter(), of any other `from` itself.
+  int PatchNow(const Eigen::VectorXd& u, double s, int from) const {
+    return Seamless() ? PatchAfter(u, s, from) : from;
+  }
   // `patch` itself, or the nearest patch where `patch` is kNearestPatch. Functions with the parameter `patch` take
   // kNearestPatch, too, except HasPatch() and RangeOf().
   int KnownPatch(const Eigen::VectorXd& u, double s, int patch) const {

@@ -6,15 +6,14 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/branch/arc_step.h"
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/contact_arc.h"
+#include "contact_path/path/balanced_step.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
 #include "contact_path/path/machine_limit.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
-#include "contact_path/path/work.h"
 
 namespace contact_path {
 
@@ -46,11 +45,6 @@ class BranchMethod : public PathMethod {
   // Where the path comes back to an earlier increment on the step: its number, and the step ends there. Not where a
   // branch is to be chosen farther on: then a path that comes back need not repeat.
   std::optional<int> EndAtReturn(const PathPoint& from, ArcStep* at);
-  struct BalancedStep {
-    ArcStep at;
-    Work work;
-    double stored = 0.0;  // strain energy at its end [force length]
-  };
   // Shortens the step to where the equilibrium ceases to be stable under the machine: the setting of the machine turns
   // on it, contacts that slip let go, or several parts buckle at one place. Whether there is such a place; increment:
   // of the step, made anew then.
@@ -99,12 +93,6 @@ class BranchMethod : public PathMethod {
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
   std::vector<double> CrossingPath(const Crossing& crossing) const;
   int StiffnessSign(const CurvePoint& point) const;
-  // The next step, short enough for the energies to tell, too: where only soft parts move, the load may change along
-  // the step by far more than what its predictor shows.
-  std::optional<BalancedStep> NextBalancedStep();
-  // Fills in the energies. Whether the work of the loads is what the strain energy gains and friction takes, up to a
-  // share that a step may be off by.
-  bool Balance(BalancedStep* step) const;
   // Where no step is accepted.
   End NoStep(const PathPoint& from);
 

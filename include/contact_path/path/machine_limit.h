@@ -25,7 +25,7 @@ class MachineLimit {
   // model must outlive it. cancelled may be empty.
   MachineLimit(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
-  const Machine& machine() const { return machine_; }
+  const Machine& machine() const { return setting_.machine(); }
   const PathParameter& parameter() const { return parameter_; }
   bool IsFollowed() const { return at_limit_ == AtLimit::kFollow; }
   StabilityMonitor* monitor() const { return monitor_.get(); }  // null: verdicts are not asked for
@@ -43,7 +43,7 @@ class MachineLimit {
     Eigen::MatrixXd null_directions;  // of the tangent at fixed load factor, columns du, where it is singular
     bool contact_event = false, crossing = false;
     bool stable_ahead = false;  // though the point itself has a direction without stiffness
-    const ActiveSetTolerance& tolerance;
+    ActiveSetTolerance tolerance;
   };
   // As at_limit wants it: no branch leads on, which *end tells, the path parameter turns, or the equilibrium is
   // unstable under the machine. Whether directions without stiffness leave that to what is right behind the point.
@@ -86,7 +86,7 @@ class MachineLimit {
   const std::function<bool()> cancelled_;
   const AtLimit at_limit_;
   const bool landing_checks_;
-  const Machine machine_;
+  const MachineSetting setting_;
   const PathParameter parameter_;
   const std::unique_ptr<StabilityMonitor> monitor_;
   std::optional<Leaving> leaving_;
