@@ -21,8 +21,8 @@ CONTROL = re.compile('[\x00-\x1f\x7f-\x9f\u2028\u2029\ufffd]')
 LONGEST_MESSAGE = 1000  # characters of an answer for a person
 
 
-def require_one_line(message):
-    require(not CONTROL.search(message), 'not one line of text: %r' % message[:300])
+def require_lines(message):  # one a violation
+    require(not any(CONTROL.search(line) for line in message.split('\n')), 'not lines of text: %r' % message[:300])
     require(len(message) <= LONGEST_MESSAGE, 'a message of %d characters' % len(message))
 
 
@@ -102,7 +102,7 @@ def huge(world, short):
                 response, took = quickly(lambda: client.call(data), 20.0, what)
                 require(statuses is not None, '%s: traced' % what)
                 require(response.status in statuses, '%s: %d, %s' % (what, response.status, response.message))
-                require_one_line(response.message)
+                require_lines(response.message)
             except Refused:
                 require(statuses is None, '%s: refused by roscpp' % what)
                 took = 0.0
@@ -254,7 +254,7 @@ def names(world, short):
             for field, request in spoilt_requests(text):
                 what = '%s %r' % (field, text[:40])
                 response, _ = quickly(lambda: client.call(wire(request)), 10.0, what)
-                require_one_line(response.message)
+                require_lines(response.message)
                 require(response.status in (Response.OK, Response.ENDED_EARLY, Response.INVALID_REQUEST),
                         '%s: %d, %s' % (what, response.status, response.message))
                 require(field != 'resume' or text in ('', b'') or response.status == Response.INVALID_REQUEST,
@@ -268,7 +268,7 @@ def names(world, short):
                 else:
                     refused += 1
     busy = busy_message(node, '\n[FATAL] injected\n\x1b[2J' + 'x' * 100000)
-    require_one_line(busy)
+    require_lines(busy)
     own |= set(name for name in os.listdir(bags) if BAG_NAME.fullmatch(name))
     node.require_alive()
     touched = [name for name in watch.touched() if name not in ('bags', '')]
