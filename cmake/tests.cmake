@@ -142,13 +142,13 @@ target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
 contact_path_add_stage(contact NAMES contact_pair_test deformable_boundary_test deformable_pair_test
   reach_tracker_test rigid_pair_test scene_contacts_test)
-contact_path_add_stage(equations OPTIMISED NAMES deformable_system_test fixed_state_system_test nearest_point_test rigid_modes_test)
+contact_path_add_stage(equations OPTIMISED NAMES deformable_system_test fixed_mode_system_test nearest_point_test rigid_modes_test)
 contact_path_add_stage(stability LONG OPTIMISED NAMES jump_landings_test jump_test onset_test slip_stability_test
   stability_problem_test verdicts_test)
 contact_path_add_stage(mpec NAMES increment_problem_test increment_solver_test ipopt_solver_test)
 contact_path_add_stage(branch LONG SHARDS 2 NAMES branch_choices_test branch_events_test branch_method_test branch_order_test
   branches_test complementarity_test crossing_test curved_surface_test leaning_blocks_test patches_test polynomial_test
-  random_paths_test reaction_redistribution_test toys_test)
+  random_paths_test force_redistribution_test toys_test)
 if(NOT CONTACT_PATH_SANITIZE)
   # It counts allocations, in place of the allocator that a sanitizer brings.
   contact_path_add_gtest(branch_allocations_test SOURCES test/branch/allocations_test.cpp)

@@ -8,31 +8,30 @@
 namespace contact_path {
 namespace {
 
-// Whether every contact that slides goes on in its sense.
-bool SlidesOn(const FixedStateSystem& system, const Eigen::VectorXd& x, const Eigen::VectorXd& first) {
-  const std::vector<Constraint> constraints = system.Inequalities();
-  return std::all_of(constraints.begin(), constraints.end(), [&](const Constraint& constraint) {
-    return constraint.inequality != Inequality::kSlip || system.Rate(constraint, x, first) >= -tolerances::kRate;
+// Whether everything that slides goes on in its sense.
+bool SlidesOn(const FixedModeSystem& system, const Eigen::VectorXd& x, const Eigen::VectorXd& first) {
+  const std::vector<Limit> limits = system.Limits();
+  return std::all_of(limits.begin(), limits.end(), [&](const Limit& limit) {
+    return !system.IsOfRate(limit) || system.Rate(limit, x, first) >= -tolerances::kRate;
   });
 }
 
 }  // namespace
 
-std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing,
+std::vector<Branch> BifurcationBranches(const ModeArc& arc, const Crossing& crossing,
                                         const PathParameter& parameter) {
-  const FixedStateSystem& system = arc.system();
+  const FixedModeSystem& system = arc.system();
   const Eigen::Index motion = arc.NumMotion();
   const PathPoint point = system.Unpack(crossing.x);
   const auto branch_along = [&](const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
     Branch branch;
-    branch.states = system.states();
-    branch.patches = point.patches;
+    branch.modes = point.modes;
     branch.direction = first.head(motion);
     branch.first = first;
     branch.second = second;
     branch.load_rate = first[motion - 1];
     branch.parameter_rate = parameter.Rate(first, motion);
-    branch.dissipation_rate = DissipationRate(contacts, branch.states, point, branch.direction);
+    branch.dissipation_rate = DissipationRate(system.laws(), branch.modes, point, branch.direction);
     branch.turn = std::acos(std::clamp(branch.direction.dot(crossing.along.first.head(motion)), -1.0, 1.0));
     return branch;
   };

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "contact_path/equations/measured.h"
-#include "contact_path/equations/transitions.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/tolerances.h"
 
@@ -29,45 +28,45 @@ bool SameReactions(const Branch& branch, const Branch& other) {
 
 }  // namespace
 
-double ReactionNorm(const ContactPairs& contacts, const PathPoint& point) {
+double ForceNorm(const Laws& laws, const PathPoint& point) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    sum += (point.rn[k] * point.rn[k] + point.rt[k] * point.rt[k]) / std::pow(contacts[i]->ForceUnit(), 2);
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    double squares = 0.0;
+    for (const double force : laws.Of(point.forces, i)) squares += force * force;
+    sum += squares / std::pow(laws[i].ForceUnit(), 2);
   }
   return std::sqrt(sum);
 }
 
-ContactModes ModesWith(const std::vector<ContactState>& states, const std::vector<ContactModes>& options,
-                       const PathPoint& point) {
-  ContactModes modes;
+Modes ModesWith(const States& states, const std::vector<Modes>& options, const PathPoint& point) {
+  Modes modes;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto found = std::find_if(options[i].begin(), options[i].end(),
-                                    [&](const ContactMode& option) { return option.state == states[i]; });
-    modes.push_back(found != options[i].end() ? *found : ContactMode{states[i], point.Patch(i)});
+                                    [&](const Mode& option) { return option.state == states[i]; });
+    modes.push_back(found != options[i].end() ? *found : Mode{states[i], point.modes[i].piece});
   }
   return modes;
 }
 
-BranchFinder::BranchFinder(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
+BranchFinder::BranchFinder(const Structure& structure, const Laws& laws, const PathPoint& point,
                            const Options& options, const Arrival& arrival, const ActiveSetTolerance& tolerance,
                            const std::function<bool()>& cancelled)
-    : contacts_(contacts),
+    : laws_(laws),
       point_(point),
       options_(options),
       arrival_(arrival),
       tolerance_(tolerance),
       cancelled_(cancelled),
-      redundant_(contacts, point, tolerance.gap),
-      system_(structure, contacts),
-      reference_(SlipReferences(contacts, point)) {}
+      redundant_(laws, point, tolerance.motion),
+      system_(structure, laws),
+      reference_(laws.ReferencesAt(point)) {}
 
 bool BranchFinder::Cancelled() {
   was_cancelled_ = was_cancelled_ || (cancelled_ && cancelled_());
   return was_cancelled_;
 }
 
-bool BranchFinder::Try(const ContactModes& modes, std::vector<Branch>* branches, double load_sense) {
+bool BranchFinder::Try(const Modes& modes, std::vector<Branch>* branches, double load_sense) {
   if (redundant_.Among(StatesOf(modes))) return false;
   Eigen::VectorXd x;
   const Tangents tangents = TangentsOf(modes, &x);
@@ -85,10 +84,10 @@ bool BranchFinder::Try(const ContactModes& modes, std::vector<Branch>* branches,
 }
 
 bool BranchFinder::TryStates(const States& states, std::vector<Branch>* branches, double load_sense) {
-  std::set<ContactModes> tried;
+  std::set<Modes> tried;
   bool settled = false;
   for (const double sign : {1.0, -1.0})
-    if (const ContactModes modes = OntoPatches(states, sign); !Cancelled() && tried.insert(modes).second)
+    if (const Modes modes = OntoPieces(states, sign); !Cancelled() && tried.insert(modes).second)
       settled = Try(modes, branches, load_sense) || settled;
   return settled;
 }
@@ -101,28 +100,32 @@ bool BranchFinder::TrySolution(const States& states, bool degenerate, double loa
   return others && *others != states && TryStates(*others, branches, load_sense);
 }
 
-std::optional<BranchFinder::States> BranchFinder::PivotFrom(States states, double load_sense,
+std::optional<States> BranchFinder::PivotFrom(States states, double load_sense,
                                                             const RateProblem* condensed) {
   std::set<States> seen;
   bool together = true;
   for (int pivot = 0; pivot < kMostPivots && !Cancelled(); ++pivot) {
-    std::optional<std::vector<Constraint>> broken = BrokenOf(states, load_sense, condensed);
+    std::optional<std::vector<Limit>> broken = BrokenOf(states, load_sense, condensed);
     if (!broken) return std::nullopt;
-    // At the end of a patch another patch is wanted, and no other state.
+    const auto rule_of = [&](const Limit& limit) -> const LimitRule& {
+      const auto i = static_cast<std::size_t>(limit.law);
+      return laws_[i].Rule(states[i], limit.id);
+    };
+    // At the end of a piece another piece is wanted, and no other state.
     broken->erase(std::remove_if(broken->begin(), broken->end(),
-                                 [](const Constraint& constraint) { return KeepsPatch(constraint.inequality); }),
+                                 [&](const Limit& limit) { return rule_of(limit).OfPiece(); }),
                   broken->end());
     if (broken->empty()) return states;
     together = together && seen.insert(states).second;
     if (!together) broken->resize(1);
-    for (const Constraint& constraint : *broken) {
-      const auto i = static_cast<std::size_t>(constraint.contact);
-      states[i] = NextMode(*contacts_[i], constraint.inequality, {states[i], 0}).state;
-      // By the total law of friction a contact that closes may have slipped, and cannot stick.
-      const ContactModes& modes = options_[i];
-      const auto touches = [](const ContactMode& mode) { return mode.state != ContactState::kOpen; };
-      if (states[i] == ContactState::kStick && !HasState(modes, ContactState::kStick))
-        states[i] = std::find_if(modes.begin(), modes.end(), touches)->state;
+    for (const Limit& limit : *broken) {
+      const auto i = static_cast<std::size_t>(limit.law);
+      // A law that ceases to be idle may have moved from its reference, and cannot be held there.
+      const Modes& modes = options_[i];
+      const int next = rule_of(limit).next;
+      const auto acts = [&](const Mode& mode) { return !laws_[i].In(mode).idle; };
+      const bool cannot = !laws_[i].In(next).idle && laws_[i].In(next).held == next && !HasState(modes, next);
+      states[i] = cannot ? std::find_if(modes.begin(), modes.end(), acts)->state : next;
     }
   }
   return std::nullopt;
@@ -138,19 +141,17 @@ bool BranchFinder::Excluded(const States& states, const RateProblem& condensed) 
          condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kSameTangent, nullptr);
 }
 
-void BranchFinder::TryOtherStatesAtNodes(std::vector<Branch>* branches) {
+void BranchFinder::TryOtherModesOfTheSameDofs(std::vector<Branch>* branches) {
   for (std::size_t b = 0; b < branches->size(); ++b)
-    for (const std::vector<std::size_t>& node : redundant_.AtEachNode()) {
-      ContactModes modes = ModesWith((*branches)[b].states, options_, point_);
-      const std::vector<int>& patches = (*branches)[b].patches;
-      for (std::size_t i = 0; i < patches.size(); ++i) modes[i].patch = patches[i];
+    for (const std::vector<std::size_t>& group : redundant_.OfTheSameDofs()) {
+      Modes modes = (*branches)[b].modes;
       const std::function<void(std::size_t)> vary = [&](std::size_t k) {
-        if (k == node.size()) {
+        if (k == group.size()) {
           Try(modes, branches);
           return;
         }
-        for (const ContactMode& mode : options_[node[k]]) {
-          modes[node[k]] = mode;
+        for (const Mode& mode : options_[group[k]]) {
+          modes[group[k]] = mode;
           vary(k + 1);
         }
       };
@@ -158,47 +159,47 @@ void BranchFinder::TryOtherStatesAtNodes(std::vector<Branch>* branches) {
     }
 }
 
-Tangents BranchFinder::TangentsOf(const ContactModes& modes, Eigen::VectorXd* x) {
-  system_.SetStates(StatesOf(modes), reference_, PatchesOf(modes));
+Tangents BranchFinder::TangentsOf(const Modes& modes, Eigen::VectorXd* x) {
+  system_.SetModes(modes, reference_);
   *x = system_.Pack(point_);
   Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, &system_, &solvers_);
   rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
   return tangents;
 }
 
-ContactModes BranchFinder::OntoPatches(const States& states, double sign) {
-  ContactModes modes = ModesWith(states, options_, point_);
+Modes BranchFinder::OntoPieces(const States& states, double sign) {
+  Modes modes = ModesWith(states, options_, point_);
   bool choice = false;
   for (std::size_t i = 0; i < modes.size() && !choice; ++i)
-    choice = std::any_of(options_[i].begin(), options_[i].end(), [&](const ContactMode& other) {
-      return other.state == modes[i].state && other.patch != modes[i].patch;
+    choice = std::any_of(options_[i].begin(), options_[i].end(), [&](const Mode& other) {
+      return other.state == modes[i].state && other.piece != modes[i].piece;
     });
   if (!choice) return modes;
-  std::set<ContactModes> seen;
+  std::set<Modes> seen;
   while (!Cancelled() && seen.insert(modes).second) {
     Eigen::VectorXd x;
     const Tangents tangents = TangentsOf(modes, &x);
     if (tangents.first.empty()) break;
     const double along = tangents.first[0].head(NumMotion()).dot(arrival_.direction);
     const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.first[0];
-    for (const Constraint& constraint : system_.Inequalities()) {
-      if (!KeepsPatch(constraint.inequality) || !IsWeaklyActive(system_, constraint, x, tolerance_)) continue;
-      const Jet value = system_.ValueAlong(constraint, x, first, tangents.second[0]);
+    for (const Limit& limit : system_.Limits()) {
+      if (!system_.RuleOf(limit).OfPiece() || !system_.IsWeaklyActive(limit, x, tolerance_)) continue;
+      const Jet value = system_.ValueAlong(limit, x, first, tangents.second[0]);
       if (LeadingSign({Rate(value.first), Rate(value.second)}) >= 0) continue;
-      const auto i = static_cast<std::size_t>(constraint.contact);
-      const ContactMode next = NextMode(*contacts_[i], constraint.inequality, modes[i]);
+      const auto i = static_cast<std::size_t>(limit.law);
+      const Mode next = laws_[i].Next(modes[i], limit.id);
       if (std::find(options_[i].begin(), options_[i].end(), next) != options_[i].end()) modes[i] = next;
     }
   }
   return modes;
 }
 
-std::optional<std::vector<Constraint>> BranchFinder::BrokenOf(const States& states, double load_sense,
+std::optional<std::vector<Limit>> BranchFinder::BrokenOf(const States& states, double load_sense,
                                                               const RateProblem* condensed) {
   if (condensed != nullptr) {
     const std::optional<CondensedRates> rates = condensed->Rates(states);
     if (!rates) return std::nullopt;
-    std::vector<Constraint> broken;
+    std::vector<Limit> broken;
     condensed->Broken(states, *rates, rates->load < 0.0 ? -load_sense : load_sense, tolerance_, tolerances::kRate,
                       &broken);
     return broken;
@@ -207,7 +208,7 @@ std::optional<std::vector<Constraint>> BranchFinder::BrokenOf(const States& stat
   const Tangents tangents = TangentsOf(ModesWith(states, options_, point_), &x);
   if (tangents.first.empty()) return std::nullopt;
   const double sign = tangents.first[0][NumMotion() - 1] < 0.0 ? -load_sense : load_sense;
-  return Broken(x, sign * tangents.first[0], tangents.second[0], contacts_.size());
+  return Broken(x, sign * tangents.first[0], tangents.second[0], laws_.size());
 }
 
 bool BranchFinder::Admissible(const Tangents& tangents, std::size_t k, const Eigen::VectorXd& x,
@@ -220,30 +221,29 @@ bool BranchFinder::Admissible(const Tangents& tangents, std::size_t k, const Eig
   return Broken(x, first, second, 1).empty();
 }
 
-std::vector<Constraint> BranchFinder::Broken(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+std::vector<Limit> BranchFinder::Broken(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                                              const Eigen::VectorXd& second, std::size_t most) {
-  std::vector<Constraint> broken, level;
-  for (const Constraint& constraint : system_.Inequalities()) {
+  std::vector<Limit> broken, level;
+  for (const Limit& limit : system_.Limits()) {
     if (broken.size() == most) return broken;
-    if (!IsWeaklyActive(system_, constraint, x, tolerance_)) continue;
-    const Jet along = system_.ValueAlong(constraint, x, first, second);
-    const double unit = system_.UnitOf(constraint);
+    if (!system_.IsWeaklyActive(limit, x, tolerance_)) continue;
+    const Jet along = system_.ValueAlong(limit, x, first, second);
+    const double unit = system_.UnitOf(limit);
     Measured rate = Rate(along.first / unit);
     const Measured bend = Rate(along.second / unit);
     // A graze is located to the root of rounding only: a value that is past its minimum before it counts as negative.
-    if (constraint.inequality != Inequality::kSlip)
+    if (!system_.IsOfRate(limit))
       rate.error = std::max(rate.error, std::sqrt(2.0 * std::max(bend.value, 0.0) * tolerances::kNoMove));
-    if (rate.value < 0.0 && arrival_.failed == constraint && system_.states() == point_.states) rate.error = 0.0;
+    if (rate.value < 0.0 && arrival_.failed == limit && SameStates(system_.modes(), point_.modes)) rate.error = 0.0;
     const int sign = LeadingSign({rate, bend});
-    if (sign < 0) broken.push_back(constraint);
-    if (sign == 0) level.push_back(constraint);
+    if (sign < 0) broken.push_back(limit);
+    if (sign == 0) level.push_back(limit);
   }
   if (!broken.empty() || level.empty()) return broken;
   const std::optional<Ahead> ahead = LookAhead(x, first, second);
   if (!ahead) return broken;
-  for (const Constraint& constraint : level)
-    if (Rate(system_.Rate(constraint, ahead->x, ahead->first) / system_.UnitOf(constraint)).Sign() < 0)
-      broken.push_back(constraint);
+  for (const Limit& limit : level)
+    if (Rate(system_.Rate(limit, ahead->x, ahead->first) / system_.UnitOf(limit)).Sign() < 0) broken.push_back(limit);
   return broken;
 }
 
@@ -273,30 +273,27 @@ std::optional<BranchFinder::Ahead> BranchFinder::LookAhead(const Eigen::VectorXd
 }
 
 bool BranchFinder::IsReversed(const Eigen::VectorXd& first) const {
-  return (first.head(NumMotion()) + arrival_.direction).norm() < tolerances::kSameTangent && !SetsSliding(first);
+  return (first.head(NumMotion()) + arrival_.direction).norm() < tolerances::kSameTangent &&
+         Sliding(system_.modes(), first.head(NumMotion()) + arrival_.direction, true) == 0;
 }
 
-bool BranchFinder::SetsSliding(const Eigen::VectorXd& first) const {
-  const Eigen::VectorXd apart = first.head(NumMotion()) + arrival_.direction;
-  const std::vector<std::size_t>& touching = system_.Touching();
-  return std::any_of(touching.begin(), touching.end(), [&](std::size_t i) {
-    return contacts_[i]->Curved() && Slips(system_.states()[i]) && point_.states[i] == ContactState::kStick &&
-           Rate(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), apart, apart[NumMotion() - 1])).Sign() != 0;
-  });
-}
-
-int BranchFinder::IdleSlips(const Branch& branch) const {
-  int idle = 0;
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (Slips(branch.states[i]) &&
-        Rate(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), branch.direction, branch.load_rate)).Sign() ==
-            0)
-      ++idle;
-  return idle;
+int BranchFinder::Sliding(const Modes& modes, const Eigen::VectorXd& motion, bool moving) const {
+  int ports = 0;
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    const StateRule& state = laws_[i].In(modes[i]);
+    const bool counts = !moving || (laws_[i].Curved() && state.held == point_.modes[i].state);
+    for (std::size_t p = 0; state.slides && counts && p < laws_[i].NumPorts(); ++p)
+      if (state.ports[p].Follows() &&
+          (Rate(laws_[i].TravelRate(p, point_.u, point_.s, point_.modes[i].piece, motion, motion[NumMotion() - 1]))
+               .Sign() != 0) == moving)
+        ++ports;
+  }
+  return ports;
 }
 
 bool BranchFinder::IsPlainer(const Branch& branch, const Branch& other) const {
-  const int idle = IdleSlips(branch), others = IdleSlips(other);
+  const int idle = Sliding(branch.modes, branch.direction, false),
+            others = Sliding(other.modes, other.direction, false);
   if (idle != others) return idle < others;
   return branch.reaction_rate < other.reaction_rate && !SameReactions(branch, other);
 }
@@ -304,8 +301,7 @@ bool BranchFinder::IsPlainer(const Branch& branch, const Branch& other) const {
 void BranchFinder::Add(const Tangents& tangents, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                        std::vector<Branch>* branches) const {
   Branch branch;
-  branch.states = system_.states();
-  if (!point_.patches.empty()) branch.patches = system_.patches();
+  branch.modes = system_.modes();
   branch.mechanism = tangents.mechanism;
   branch.singular = tangents.rests;
   branch.rests = tangents.rests || first.head(NumMotion() - 1).norm() <= tolerances::kRate;
@@ -315,9 +311,9 @@ void BranchFinder::Add(const Tangents& tangents, const Eigen::VectorXd& first, c
   branch.load_rate = first[NumMotion() - 1];
   branch.parameter_rate = arrival_.parameter.Rate(first, NumMotion());
   branch.sense = arrival_.parameter.Sense(first, NumMotion());
-  branch.dissipation_rate = DissipationRate(contacts_, branch.states, point_, branch.direction);
+  branch.dissipation_rate = DissipationRate(laws_, branch.modes, point_, branch.direction);
   branch.turn = AngleTo(arrival_.direction, branch.direction);
-  branch.reaction_rate = ReactionNorm(contacts_, system_.Unpack(first));
+  branch.reaction_rate = ForceNorm(laws_, system_.Unpack(first));
   branch.deviation = arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
   for (Branch& other : *branches) {
     if ((other.direction - branch.direction).norm() >= tolerances::kSameDirection) continue;

@@ -10,55 +10,52 @@
 
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/rate_problem.h"
-#include "contact_path/branch/redundant_contacts.h"
+#include "contact_path/branch/redundant_laws.h"
 #include "contact_path/branch/tangents.h"
-#include "contact_path/contact/contact_state.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 
 namespace contact_path {
 
-// Of the reactions of a point, or of their rates, each in its force unit.
-double ReactionNorm(const ContactPairs& contacts, const PathPoint& point);
+// Of the forces of a point, or of their rates, each in the force unit of its law.
+double ForceNorm(const Laws& laws, const PathPoint& point);
 
-// The modes with these states: the first options of each candidate that have them.
-ContactModes ModesWith(const std::vector<ContactState>& states, const std::vector<ContactModes>& options,
-                       const PathPoint& point);
+// The modes with these states: the first options of each law that have them.
+Modes ModesWith(const States& states, const std::vector<Modes>& options, const PathPoint& point);
 
-// Tries combinations of the states that contacts may take on from a point, and keeps the branches that lead on: along
-// them no inequality has a negative leading sign, that is the sign of the first of its rate, its second derivative, and
+// Tries combinations of the states that laws may take on from a point, and keeps the branches that lead on: along
+// them no limit has a negative leading sign, that is the sign of the first of its rate, its second derivative, and
 // its rate a little farther along that is known beyond its error.
 class BranchFinder {
  public:
-  using States = std::vector<ContactState>;
-  using Options = std::vector<ContactModes>;  // of each candidate
+  using Options = std::vector<Modes>;  // of each law
 
   // All arguments must outlive it.
-  BranchFinder(const Structure& structure, const ContactPairs& contacts, const PathPoint& point, const Options& options,
+  BranchFinder(const Structure& structure, const Laws& laws, const PathPoint& point, const Options& options,
                const Arrival& arrival, const ActiveSetTolerance& tolerance, const std::function<bool()>& cancelled);
 
   // Adds the branches with these modes. Whether they settle this sense of the load: a direction in which the load
   // changes so leads on, or is the branch of arrival.
-  bool Try(const ContactModes& modes, std::vector<Branch>* branches, double load_sense = 1.0);
-  // Try() with these states, on the patches onto which each direction leads.
+  bool Try(const Modes& modes, std::vector<Branch>* branches, double load_sense = 1.0);
+  // Try() with these states, on the pieces onto which each direction leads.
   bool TryStates(const States& states, std::vector<Branch>* branches, double load_sense = 1.0);
   // TryStates() with the solution of the rates for this sense of the load, whose rates hide some of the states if it is
   // degenerate: then those, too, to which the leading signs lead from there.
   bool TrySolution(const States& states, bool degenerate, double load_sense, std::vector<Branch>* branches);
 
-  // Principal pivoting from these states to some that break no inequality where the load changes in this sense:
-  // contacts whose inequalities are broken change their states, all at once until states come back, from then on only
+  // Principal pivoting from these states to some that break no limit where the load changes in this sense: laws
+  // whose limits are broken change their states, all at once until states come back, from then on only
   // the first of them. condensed: null, or the rate problem whose rates tell what is broken. Nothing: there are no
   // rates, or no end.
   std::optional<States> PivotFrom(States states, double load_sense, const RateProblem* condensed);
 
-  // Whether contacts are redundant with these states, or their rates are broken in both directions by far more than
+  // Whether laws are redundant with these states, or their rates are broken in both directions by far more than
   // rounding, or the structure starts as a mechanism with them.
   bool Excluded(const States& states, const RateProblem& condensed) const;
 
-  // Where several contacts hold a node, others of their states may hold it with less: tries them, node by node.
-  void TryOtherStatesAtNodes(std::vector<Branch>* branches);
+  // Where several laws hold the same dofs, others of their modes may hold them with less: tries them, group by group.
+  void TryOtherModesOfTheSameDofs(std::vector<Branch>* branches);
 
-  // Whether each combination of the options has contacts that are redundant.
+  // Whether each combination of the options has laws that are redundant.
   bool AllRedundant() const { return redundant_.AmongAll(options_); }
 
   int rigid_modes() const { return rigid_modes_; }
@@ -70,18 +67,18 @@ class BranchFinder {
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }
 
   // The system takes on these modes; *x: the point.
-  Tangents TangentsOf(const ContactModes& modes, Eigen::VectorXd* x);
-  // The modes with these states, each on the patch onto which the first tangent leads. sign: of the tangent, relative
-  // to the direction of arrival. On other patches the tangent may be another one: until modes come back.
-  ContactModes OntoPatches(const States& states, double sign);
+  Tangents TangentsOf(const Modes& modes, Eigen::VectorXd* x);
+  // The modes with these states, each on the piece onto which the first tangent leads. sign: of the tangent, relative
+  // to the direction of arrival. On other pieces the tangent may be another one: until modes come back.
+  Modes OntoPieces(const States& states, double sign);
 
   // Whether the tangent k, or its opposite, is a branch.
   bool Admissible(const Tangents& tangents, std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& first);
-  // In contact order, at most so many, the inequalities with a negative leading sign along a curve.
-  std::vector<Constraint> Broken(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
+  // In the order of the laws, at most so many, the limits with a negative leading sign along a curve.
+  std::vector<Limit> Broken(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                                  std::size_t most);
   // The same by the first tangent of these states, or by condensed rates.
-  std::optional<std::vector<Constraint>> BrokenOf(const States& states, double load_sense,
+  std::optional<std::vector<Limit>> BrokenOf(const States& states, double load_sense,
                                                   const RateProblem* condensed);
   // Whether the load starts to change in the wanted sense, by more than `error`: a motion without load is a mechanism.
   // At a smooth limit point the load rests, and its curvature tells; where that is zero as well, as of a load across
@@ -96,28 +93,25 @@ class BranchFinder {
   std::optional<Ahead> LookAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second);
 
   bool IsReversed(const Eigen::VectorXd& first) const;
-  // Whether a contact that stuck slides on a curve, however little, other than back: over a sharp one the load changes
-  // far more than the node moves.
-  bool SetsSliding(const Eigen::VectorXd& first) const;
-
-  // Contacts that slip by name but do not move.
-  int IdleSlips(const Branch& branch) const;
+  // How many ports slide by name in these modes and move, or do not; of moving ones, on curves and in laws that were held
+  // at the point: over a sharp curve the load changes far more than a node moves. motion: (du, ds).
+  int Sliding(const Modes& modes, const Eigen::VectorXd& motion, bool moving) const;
   // Of two branches with one direction of motion: whether the first is to be kept. Walls that hold a node have several
-  // states that do; those with the least reactions are kept, whatever the order of the contacts, and whichever way the
+  // states that do; those with the least forces are kept, whatever the order of the laws, and whichever way the
   // tangents of the walls point.
   bool IsPlainer(const Branch& branch, const Branch& other) const;
   void Add(const Tangents& tangents, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
            std::vector<Branch>* branches) const;
 
-  const ContactPairs& contacts_;
+  const Laws& laws_;
   const PathPoint& point_;
   const Options& options_;
   const Arrival& arrival_;
   ActiveSetTolerance tolerance_;
   const std::function<bool()>& cancelled_;
   bool was_cancelled_ = false;
-  RedundantContacts redundant_;
-  FixedStateSystem system_;
+  RedundantLaws redundant_;
+  FixedModeSystem system_;
   Eigen::VectorXd reference_;
   TangentSolvers solvers_;
   int rigid_modes_ = 0;  // most of all tangents that are rigid modes

@@ -25,22 +25,12 @@ void MarkMirrorBranches(std::vector<Branch>* branches) {
 }
 
 // The state of arrival comes first.
-int Rank(ContactState state, ContactState arrival) {
-  if (state == arrival) return 0;
-  switch (state) {
-    case ContactState::kClosed: return 1;
-    case ContactState::kStick: return 2;
-    case ContactState::kSlipPlus: return 3;
-    case ContactState::kSlipMinus: return 4;
-    case ContactState::kOpen: return 5;
-  }
-  return 6;
-}
+int Rank(const Mode& mode, const Mode& arrival) { return mode.state == arrival.state ? -1 : mode.state; }
 
 // Exact, and of any two branches with different states or directions.
-bool Before(const std::vector<ContactState>& arrival, const Branch& a, const Branch& b) {
+bool Before(const Modes& arrival, const Branch& a, const Branch& b) {
   for (std::size_t i = 0; i < arrival.size(); ++i)
-    if (a.states[i] != b.states[i]) return Rank(a.states[i], arrival[i]) < Rank(b.states[i], arrival[i]);
+    if (a.modes[i].state != b.modes[i].state) return Rank(a.modes[i], arrival[i]) < Rank(b.modes[i], arrival[i]);
   if (a.begin.has_value() != b.begin.has_value()) return b.begin.has_value();
   return std::lexicographical_compare(b.direction.data(), b.direction.data() + b.direction.size(), a.direction.data(),
                                       a.direction.data() + a.direction.size());
@@ -60,7 +50,7 @@ void ForEachGroup(Iterator begin, Iterator end, double gap, const std::function<
 
 }  // namespace
 
-void SortBranches(const std::vector<ContactState>& arrival, bool forward, std::vector<Branch>* branches) {
+void SortBranches(const Modes& arrival, bool forward, std::vector<Branch>* branches) {
   MarkMirrorBranches(branches);
   const auto by_parameter = [&](Iterator from, Iterator to) {
     ForEachGroup(

@@ -11,9 +11,7 @@
 #include "contact_path/branch/branch_order.h"
 #include "contact_path/branch/rate_complementarity.h"
 #include "contact_path/branch/rate_problem.h"
-#include "contact_path/branch/reaction_redistribution.h"
-#include "contact_path/branch/state_options.h"
-#include "contact_path/contact/contact_state.h"
+#include "contact_path/branch/force_redistribution.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -21,19 +19,18 @@ namespace {
 
 constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
-constexpr std::size_t kMostCondensedContacts = 512;  // of more, dense equations take longer than the sparse ones of all
+constexpr std::size_t kMostCondensedLaws = 512;  // of more, dense equations take longer than the sparse ones of all
 constexpr double kMostCombinations = 4096.0;         // 4^6
 constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
-using States = BranchFinder::States;
 using Options = BranchFinder::Options;
 
-// Every combination of the options: an odometer, the last contact turning fastest.
+// Every combination of the options: an odometer, the last law turning fastest.
 // excluded(modes): whether they need not be tried.
-void TryAll(const Options& options, const std::function<bool(const ContactModes&)>& excluded, BranchFinder* finder,
+void TryAll(const Options& options, const std::function<bool(const Modes&)>& excluded, BranchFinder* finder,
             BranchSet* result) {
-  ContactModes modes;
-  for (const ContactModes& option : options) modes.push_back(option.front());
+  Modes modes;
+  for (const Modes& option : options) modes.push_back(option.front());
   std::vector<std::size_t> digits(options.size(), 0);
   bool turned = true;
   while (turned && !finder->Cancelled()) {
@@ -69,14 +66,16 @@ bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, Br
   return both;
 }
 
-// Where there are too many combinations: principal pivoting from the states of now, and from as many contacts as may be
-// in each of the states. Each result is tried like any other combination.
-void TryLikely(const Options& options, const RateProblem* condensed, BranchFinder* finder, BranchSet* result) {
+// Where there are too many combinations: principal pivoting from the states of now, from as many idle laws as may be,
+// and from as many laws as may be in each of the states. Each result is tried like any other combination.
+void TryLikely(const Laws& laws, const Options& options, const RateProblem* condensed, BranchFinder* finder, BranchSet* result) {
   std::set<States> tried;
-  const auto pivot_from = [&](const std::optional<ContactState>& preferred) {
+  const auto pivot_from = [&](const auto& is_preferred) {
     States guess;
-    for (const ContactModes& option : options) {
-      guess.push_back(preferred && HasState(option, *preferred) ? *preferred : option.front().state);
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      const auto preferred = std::find_if(options[i].begin(), options[i].end(),
+                                          [&](const Mode& mode) { return is_preferred(laws[i], mode.state); });
+      guess.push_back((preferred != options[i].end() ? *preferred : options[i].front()).state);
     }
     for (const double sense : {1.0, -1.0}) {
       const std::optional<States> states = finder->PivotFrom(guess, sense, condensed);
@@ -85,70 +84,72 @@ void TryLikely(const Options& options, const RateProblem* condensed, BranchFinde
       ++result->combinations;
     }
   };
-  pivot_from(std::nullopt);
-  for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
-                                       ContactState::kSlipMinus, ContactState::kClosed})
-    pivot_from(preferred);
+  int states = 0;
+  for (std::size_t i = 0; i < laws.size(); ++i) states = std::max(states, laws[i].NumStates());
+  pivot_from([](const Law&, int) { return false; });
+  pivot_from([](const Law& law, int state) { return law.In(state).idle; });
+  for (int preferred = 0; preferred < states; ++preferred)
+    pivot_from([&](const Law&, int state) { return state == preferred; });
 }
 
-// With the reactions of the point. In no order, and mirror branches are not told.
-BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
+// With the forces of the point. In no order, and mirror branches are not told.
+BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const PathPoint& point,
                                 const Arrival& arrival, const ActiveSetTolerance& tolerance,
                                 const std::function<bool()>& cancelled) {
   BranchSet result;
   Options options;
-  States natural;
+  Modes natural;
   std::vector<int> weakly_active;
   double combinations = 1.0;
-  bool between_patches = false, between_rigid = false;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    options.push_back(StateOptions(*contacts[i], point, i, tolerance));
-    natural.push_back(options[i].front().state);
-    const int patch = contacts[i]->KnownPatch(point.u, point.s, point.Patch(i));
-    for (const ContactMode& option : options[i]) {
-      if (option.patch == patch) continue;
-      between_patches = true;
-      between_rigid = between_rigid || !contacts[i]->Deformable();
+  bool between_pieces = false, between_rigid = false;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    options.push_back(laws.ModesAt(point, i, tolerance));
+    natural.push_back({options[i].front().state, point.modes[i].piece});
+    const int piece = laws[i].Known(point.u, point.s, point.modes[i]).piece;
+    for (const Mode& option : options[i]) {
+      if (option.piece == piece) continue;
+      between_pieces = true;
+      between_rigid = between_rigid || !laws[i].Compliant();
     }
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
   }
   result.weakly_active = static_cast<int>(weakly_active.size());
-  BranchFinder finder(structure, contacts, point, options, arrival, tolerance, cancelled);
+  BranchFinder finder(structure, laws, point, options, arrival, tolerance, cancelled);
   if (finder.AllRedundant()) return result;
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
-  // patches of a rigid surface meet, whose curvatures differ. Nodes pass from patch to patch of a deformable surface
-  // all the time: then there is a problem for each combination of patches.
+  // pieces of a rigid law meet, whose curvatures differ. Compliant laws pass from piece to piece all the time: then there
+  // is a problem for each combination of pieces.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
-  const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
+  const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedLaws && !arrival.singular &&
                          entries <= kMostCondensed;
   const bool few_enough = combinations <= kMostCombinations;
-  // Where there are too many of them, rates on the patches of now lead to the states; their branches lie on the next
-  // patches, which have the same tangents on a surface that deforms.
-  if (condenses && (!between_patches || (!few_enough && !between_rigid)))
-    problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
+  // Where there are too many of them, rates on the pieces of now lead to the states; their branches lie on the next
+  // pieces, which have the same tangents where a law is compliant.
+  if (condenses && (!between_pieces || (!few_enough && !between_rigid)))
+    problem.emplace(structure, laws, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
-  // Curvatures of patches differ.
-  std::map<std::vector<int>, const RateProblem> on_patches;
-  const auto excluded = [&](const ContactModes& modes) {
-    if (!between_patches) return condensed != nullptr && finder.Excluded(StatesOf(modes), *condensed);
+  // Curvatures of pieces differ.
+  std::map<std::vector<int>, const RateProblem> on_pieces;
+  const auto excluded = [&](const Modes& modes) {
+    if (!between_pieces) return condensed != nullptr && finder.Excluded(StatesOf(modes), *condensed);
     if (!condenses || between_rigid) return false;
-    PathPoint there = point;
-    there.patches = PatchesOf(modes);
+    Modes there = natural;
+    std::vector<int> pieces;
+    for (std::size_t i = 0; i < modes.size(); ++i) pieces.push_back(there[i].piece = modes[i].piece);
     const RateProblem& rates =
-        on_patches.try_emplace(there.patches, structure, contacts, there, natural, weakly_active, arrival.direction)
-            .first->second;
+        on_pieces.try_emplace(pieces, structure, laws, point, there, weakly_active, arrival.direction).first->second;
     return rates.regular() && finder.Excluded(StatesOf(modes), rates);
   };
   bool solved = false;
   if (condensed != nullptr) {
-    const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
-    const bool unique = complementarity.unique() && !between_patches;
+    const RateComplementarity complementarity(laws, *condensed, options, weakly_active);
+    const bool unique = complementarity.unique() && !between_pieces;
     if (complementarity.exists() && (unique || !few_enough)) {
       solved = TrySolutions(complementarity, arrival, &finder, &result) && !result.branches.empty();
-      finder.TryOtherStatesAtNodes(&result.branches);
+      finder.TryOtherModesOfTheSameDofs(&result.branches);
       result.complete_by = unique ? Completeness::kOnlySolution : Completeness::kNone;
     }
   }
@@ -157,14 +158,14 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     if (few_enough)
       TryAll(options, excluded, &finder, &result);
     else
-      TryLikely(options, between_patches ? nullptr : condensed, &finder, &result);
+      TryLikely(laws, options, between_pieces ? nullptr : condensed, &finder, &result);
   }
   if (result.branches.empty() && result.complete_by == Completeness::kNone && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);
     result.complete_by = Completeness::kAllCombinations;
   }
   if (result.branches.empty() && condensed != nullptr)
-    finder.Try(ModesWith(natural, options, point), &result.branches);  // for its rigid modes
+    finder.Try(ModesWith(StatesOf(natural), options, point), &result.branches);  // for its rigid modes
   result.rigid_modes = finder.rigid_modes();
   result.cancelled = finder.Cancelled();
   return result;
@@ -172,9 +173,9 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
 
 bool GoesOn(const Branch& branch) { return std::cos(branch.deviation) > tolerances::kRate; }
 
-// A branch that needs no change of reactions comes before one in the same direction that does. Of several changes, the
-// least reactions are kept: a choice that neither the order nor the tangents of the contacts decide.
-void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint& begin, BranchSet* result) {
+// A branch that needs no change of forces comes before one in the same direction that does. Of several changes, the
+// least forces are kept: a choice that neither the order nor the tangents of the laws decide.
+void AddOthers(const Laws& laws, BranchSet&& others, const PathPoint& begin, BranchSet* result) {
   for (Branch& branch : others.branches) {
     branch.begin = begin;
     branch.other_reactions = true;
@@ -184,7 +185,7 @@ void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint
     if (known == result->branches.end())
       result->branches.push_back(std::move(branch));
     else if (known->begin &&
-             ReactionNorm(contacts, begin) < (1.0 - tolerances::kRate) * ReactionNorm(contacts, *known->begin))
+             ForceNorm(laws, begin) < (1.0 - tolerances::kRate) * ForceNorm(laws, *known->begin))
       *known = std::move(branch);
   }
   result->weakly_active = std::max(result->weakly_active, others.weakly_active);
@@ -205,34 +206,38 @@ std::string_view ToString(Completeness completeness) {
   return "unknown";
 }
 
-double DissipationRate(const ContactPairs& contacts, const std::vector<ContactState>& states, const PathPoint& point,
-                       const Eigen::VectorXd& direction) {
+double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& point, const Eigen::VectorXd& direction) {
   double rate = 0.0;
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (Slips(states[i]) && !contacts[i]->HasTotalLaw())
-      rate -= point.rt[static_cast<Eigen::Index>(i)] *
-              contacts[i]->SlipRate(point.u, point.s, point.Patch(i), direction, direction[direction.size() - 1]);
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const StateRule& state = laws[i].In(modes[i]);
+    if (!state.slides || laws[i].Holonomic()) continue;
+    for (std::size_t p = 0; p < laws[i].NumPorts(); ++p)
+      if (state.ports[p].Follows())
+        rate -= point.forces[laws.FirstPort(i) + static_cast<Eigen::Index>(p)] *
+                laws[i].TravelRate(p, point.u, point.s, point.modes[i].piece, direction,
+                                   direction[direction.size() - 1]);
+  }
   return std::max(rate, 0.0);  // rounding may leave less
 }
 
-BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
+BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance,
                        const std::function<bool()>& cancelled) {
-  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, cancelled);
+  BranchSet result = BranchesWithForces(structure, laws, point, arrival, tolerance, cancelled);
   const auto none = [&](const auto& test) {
     return std::none_of(result.branches.begin(), result.branches.end(), test);
   };
   const bool turns = none(GoesOn) || (arrival.forward && none([](const Branch& branch) { return branch.sense > 0; }));
   if (!result.cancelled && turns) {
-    const ReactionRedistributions others = FindReactionRedistributions(contacts, point, tolerance);
+    const ForceRedistributions others = FindForceRedistributions(laws, point, tolerance);
     if (!others.complete) result.complete_by = Completeness::kNone;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(contacts, BranchesWithReactions(structure, contacts, begin, arrival, tolerance, cancelled), begin,
+      AddOthers(laws, BranchesWithForces(structure, laws, begin, arrival, tolerance, cancelled), begin,
                 &result);
     }
   }
-  SortBranches(point.states, arrival.forward, &result.branches);
+  SortBranches(point.modes, arrival.forward, &result.branches);
   return result;
 }
 

@@ -18,14 +18,14 @@ constexpr double kReach = 2.0;           // of the length of a step: wider gaps 
 constexpr double kReachOfLocated = 0.1;  // of the length of a step: what is located beside its curve is of another one
 
 // The function of an inequality that must stay >= 0: its value, or for slip its rate.
-Quintic FunctionOf(const ArcEquations& equations, const Step& step, const Constraint& constraint) {
+Quintic FunctionOf(const ArcEquations& equations, const Step& step, const Limit& constraint) {
   const Quintic value = step.Interpolate(
       [&](const CurvePoint& at) { return equations.ValueAlong(constraint, at.x, at.first, at.second); });
   return equations.IsOfRate(constraint) ? Derivative(value) : value;
 }
 
 // The rounding of a rate of slip. Among stiff parts its bound is by far larger than the error that is computed.
-double ErrorOfSlip(SmoothArc* arc, const Step& step, const Constraint& slip, const Quintic& rate) {
+double ErrorOfSlip(SmoothArc* arc, const Step& step, const Limit& slip, const Quintic& rate) {
   const double bound = tolerances::kRate * arc->equations().ResidualUnit();
   if (bound <= tolerances::kRate || !FirstNegative(rate, step.length, tolerances::kRate)) return bound;
   const double error = arc->ErrorOfRate(arc->equations().Gradient(slip, step.end.x), step.end);
@@ -105,7 +105,7 @@ std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, doub
 namespace {
 
 // Whether an inequality is zero where the curves cross.
-bool IsZeroAt(const ArcEquations& equations, const Constraint& constraint, const Crossing& crossing) {
+bool IsZeroAt(const ArcEquations& equations, const Limit& constraint, const Crossing& crossing) {
   const Jet along = equations.ValueAlong(constraint, crossing.x, crossing.along.first, crossing.along.second);
   const double unit = equations.UnitOf(constraint);
   if (equations.IsOfRate(constraint)) return std::abs(along.first) <= tolerances::kRate * unit;
@@ -347,14 +347,14 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   std::optional<double> target;
   if (ends.load_factor) target = FirstAt(load_factor, *ends.load_factor, step.length);
   // No node moves further than the arc length, and that is hardly longer than the step.
-  std::vector<Constraint> open_ends;
-  const std::vector<Constraint> inequalities = equations.LimitsInReach(step.start.x, kReach * step.length, &open_ends);
-  for (const Constraint& end : open_ends) {
+  std::vector<Limit> open_ends;
+  const std::vector<Limit> inequalities = equations.LimitsInReach(step.start.x, kReach * step.length, &open_ends);
+  for (const Limit& end : open_ends) {
     Quintic beyond = FunctionOf(equations, step, end);
     beyond[0] += tolerances::kTouching;
     if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0)) consider(near_at(*t));
   }
-  for (const Constraint& constraint : inequalities) {
+  for (const Limit& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
     const double zero =
         equations.IsOfRate(constraint) ? ErrorOfSlip(arc, step, constraint, quintic) : arc->RoundingOf(constraint);

@@ -7,7 +7,6 @@
 #include <cstddef>
 
 #include "contact_path/branch/complementarity.h"
-#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -46,26 +45,57 @@ class IndependentColumns {
   std::vector<Eigen::VectorXd> factors_;
 };
 
+// When it is decided whether the motion of a port is given.
+enum Turn { kHeld, kAlone, kWithOther, kFree };
+
 }  // namespace
 
-RateComplementarity::RateComplementarity(const ContactPairs& contacts, const RateProblem& rates,
-                                         const std::vector<ContactModes>& options,
+RateComplementarity::RateComplementarity(const Laws& laws, const RateProblem& rates, const std::vector<Modes>& options,
                                          const std::vector<int>& weakly_active)
-    : contacts_(contacts), options_(options), weakly_active_(weakly_active) {
-  if (rates.regular() && FindRoles()) Build(rates);
+    : laws_(laws), options_(options), weakly_active_(weakly_active) {
+  if (rates.regular() && FindPairs(rates)) Build(rates);
 }
 
-bool RateComplementarity::FindRoles() {
-  for (const int i : weakly_active_) {
-    const ContactPair& contact = *contacts_[static_cast<std::size_t>(i)];
-    const ContactModes& modes = options_[static_cast<std::size_t>(i)];
-    if (contact.HasTotalLaw()) return false;
-    if (HasState(modes, ContactState::kOpen))
-      roles_.push_back(contact.Frictional() ? Role::kRough : Role::kFrictionless);
-    else if (HasState(modes, ContactState::kSlipPlus) == HasState(modes, ContactState::kSlipMinus))
-      return false;  // no pair: a smooth contact where patches meet, or a cone as narrow as rounding
-    else
-      roles_.push_back(HasState(modes, ContactState::kSlipPlus) ? Role::kEdgePlus : Role::kEdgeMinus);
+bool RateComplementarity::FindPairs(const RateProblem& rates) {
+  turn_.assign(static_cast<std::size_t>(rates.MotionRates().rows()), kFree);
+  compliance_ = Eigen::VectorXd::Zero(rates.MotionRates().rows());
+  for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(weakly_active_[k]);
+    const Law& law = laws_[i];
+    const Modes& modes = options_[i];
+    if (law.Holonomic()) return false;
+    const auto acts = [&](const Mode& mode) { return !law.In(mode).idle; };
+    const int base = law.In(*std::find_if(modes.begin(), modes.end(), acts)).held;
+    base_.push_back(base);
+    const bool idle = !std::all_of(modes.begin(), modes.end(), acts);
+    const Eigen::Index first = rates.FirstPort(k);
+    for (std::size_t p = 0; p < law.NumPorts(); ++p)
+      if (const PortRule& port = law.In(base).ports[p]; port.Holds()) {
+        turn_[static_cast<std::size_t>(first) + p] = kHeld;
+        compliance_[first + static_cast<Eigen::Index>(p)] = port.compliance;
+      }
+    const std::size_t pairs_before = pairs_.size();
+    for (const LimitRule& limit : law.In(base).limits) {
+      // A law that may become idle has no force: all its limits are at zero.
+      if (!limit.OfForces() || (!idle && !HasState(modes, limit.next))) continue;
+      Pair pair{k, 0, 1.0};
+      pair.next = limit.next;
+      for (const LimitRule& back : law.In(limit.next).limits)
+        if (back.next == base && !back.OfForces() && !back.OfPiece()) {
+          pair.port = first + static_cast<Eigen::Index>(back.port);
+          pair.sign = back.sign;
+          for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+            if (p == back.port || limit.weights[p] == 0.0) continue;
+            pair.other = first + static_cast<Eigen::Index>(p);
+            pair.weight = limit.weights[p];
+          }
+        }
+      turn_[static_cast<std::size_t>(pair.port)] = pair.other < 0 ? kAlone : kWithOther;
+      if (pairs_.size() > pairs_before && pairs_.back().port == pair.port) pairs_.back().first_of_two = true;
+      pairs_.push_back(pair);
+    }
+    // None where pieces meet, and two the same way in which the law acts where a cone is as narrow as rounding.
+    if (pairs_.size() == pairs_before || (!idle && pairs_.size() > pairs_before + 1)) return false;
   }
   return true;
 }
@@ -74,44 +104,43 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
   const Eigen::Index size = A.rows();
   IndependentColumns columns(size);
   std::vector<bool> given(static_cast<std::size_t>(size), true);
-  // A force -A e, or a motion (1 - A) e, is what follows.
+  // A force, or a motion, is what follows.
   const auto take = [&](Eigen::Index direction, bool motion_is_given) {
-    Eigen::VectorXd column = -A.col(direction);
+    const double compliance = compliance_[direction];
+    Eigen::VectorXd column = -(1.0 - (motion_is_given ? compliance : 0.0)) * A.col(direction);
     if (!motion_is_given) column[direction] += 1.0;
+    if (motion_is_given && compliance != 0.0) column[direction] -= compliance;
     if (!columns.Take(std::move(column))) return false;
     given[static_cast<std::size_t>(direction)] = motion_is_given;
     return true;
   };
-  // First what has to be: contacts at the edge of their cones stay closed, and at last smooth ones bear no tangential
-  // force. A contact at a node that others hold stays closed by itself, and its reaction need not change. Where such a
-  // motion is of a part that nothing holds, its force holds the part, and vanishes.
-  std::array<std::vector<Eigen::Index>, 4> in_turn;
-  for (std::size_t k = 0; k < roles_.size(); ++k) {
-    in_turn[AtEdge(roles_[k]) ? 0 : 1].push_back(static_cast<Eigen::Index>(2 * k));
-    in_turn[roles_[k] == Role::kFrictionless ? 3 : 2].push_back(static_cast<Eigen::Index>(2 * k + 1));
-  }
-  for (std::size_t turn = 0; turn < in_turn.size(); ++turn)
-    for (const Eigen::Index direction : in_turn[turn])
-      if (!take(direction, turn < 3) && !take(direction, turn == 3)) return std::nullopt;
+  // First what has to be: motions that are held whatever happens, and at last forces that are none. A node that others
+  // hold stays where it is by itself, and its forces need not change. Where such a motion is of a part that nothing
+  // holds, its force holds the part, and vanishes.
+  for (int turn = kHeld; turn <= kFree; ++turn)
+    for (Eigen::Index direction = 0; direction < size; ++direction)
+      if (turn_[static_cast<std::size_t>(direction)] == turn && !take(direction, turn != kFree) &&
+          !take(direction, turn == kFree))
+        return std::nullopt;
   return given;
 }
 
 void RateComplementarity::Build(const RateProblem& rates) {
-  const auto count = static_cast<Eigen::Index>(roles_.size()), size = 2 * count;
-  // v = A (r + v) + b s': springs of stiffness 1 are part of the condensed problem.
-  Eigen::MatrixXd A(size, size);
-  Eigen::VectorXd b(size);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    A.row(2 * k) = rates.GapRates().row(k).tail(size);
-    A.row(2 * k + 1) = rates.SlipRates().row(k).tail(size);
-    b[2 * k] = rates.GapRates()(k, 0);
-    b[2 * k + 1] = rates.SlipRates()(k, 0);
-  }
+  const Eigen::Index size = rates.MotionRates().rows();
+  // v = A (r + v) + b s': springs of stiffness 1 are part of the condensed problem. With a compliance c the motion v
+  // stands for v + c r: v - A v - (A (1 - c) + c) r = b s'.
+  const Eigen::MatrixXd A = rates.MotionRates().rightCols(size);
+  const Eigen::VectorXd b = rates.MotionRates().col(0);
   const std::optional<std::vector<bool>> given = GivenMotions(A);
   if (!given) return;
   // What follows, y, from what is given, g: y = G g + h s'. y and g: by direction, a motion or a force.
   Eigen::MatrixXd follows = -A, given_columns = A;
   for (Eigen::Index d = 0; d < size; ++d) {
+    Eigen::MatrixXd& of_force = (*given)[static_cast<std::size_t>(d)] ? follows : given_columns;
+    if (compliance_[d] != 0.0) {
+      of_force.col(d) *= 1.0 - compliance_[d];
+      of_force(d, d) += (*given)[static_cast<std::size_t>(d)] ? -compliance_[d] : compliance_[d];
+    }
     if ((*given)[static_cast<std::size_t>(d)])
       given_columns(d, d) -= 1.0;
     else
@@ -122,34 +151,23 @@ void RateComplementarity::Build(const RateProblem& rates) {
   Eigen::MatrixXd G = lu.solve(given_columns);
   Eigen::VectorXd h = lu.solve(b);
 
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Role role = roles_[static_cast<std::size_t>(k)];
-    const bool normal = (*given)[static_cast<std::size_t>(2 * k)],
-               tangential = (*given)[static_cast<std::size_t>(2 * k + 1)];
-    if (!AtEdge(role)) pairs_.push_back({k, Inequality::kNormalReaction, normal});
-    if (role == Role::kRough || role == Role::kEdgePlus) pairs_.push_back({k, Inequality::kConePlus, tangential});
-    if (role == Role::kRough) pairs_.push_back({k, Inequality::kConeMinus, true});
-    if (role == Role::kEdgeMinus) pairs_.push_back({k, Inequality::kConeMinus, tangential});
-  }
+  // Of two pairs of one port the second has its motion as a share of the port's.
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    pairs_[p].motion_is_second =
+        (*given)[static_cast<std::size_t>(pairs_[p].port)] || (p > 0 && pairs_[p - 1].first_of_two);
 
   // The second variables of the pairs are Z z = D g + E y, so that g = (D + E G)^-1 (Z z - E h s').
   const auto num_pairs = static_cast<Eigen::Index>(pairs_.size());
   Eigen::MatrixXd D = Eigen::MatrixXd::Identity(size, size), Z = Eigen::MatrixXd::Zero(size, num_pairs);
   Eigen::VectorXd d = Eigen::VectorXd::Zero(size);
-  const auto friction = [&](const Pair& pair) {
-    return contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pair.contact)])]->Friction();
-  };
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
-    const Eigen::Index n = 2 * pair.contact, t = n + 1;
-    const bool given_motion = (*given)[static_cast<std::size_t>(t)];
-    if (pair.force == Inequality::kNormalReaction) {
-      Z(n, p) = 1.0;
-    } else if (given_motion || !pair.motion_is_second) {
-      Z(t, p) = pair.Sense();  // of v_t, or of r_t + sense mu r_n; z-, where r_t is given, is no share of it
-    }
-    if (pair.motion_is_second || pair.force == Inequality::kNormalReaction) continue;
-    const double ratio = pair.Sense() * friction(pair);
+    const Eigen::Index t = pair.port, n = pair.other;
+    // Of the motion, or of the force with those of other ports; the motion the other way, where the force is given, is
+    // no share of it.
+    if ((*given)[static_cast<std::size_t>(t)] || !pair.motion_is_second) Z(t, p) = pair.sign;
+    if (pair.motion_is_second || n < 0) continue;
+    const double ratio = pair.sign * pair.weight;
     if ((*given)[static_cast<std::size_t>(n)]) {
       D.row(t) += ratio * G.row(n);
       d[t] = -ratio * h[n];
@@ -179,19 +197,13 @@ void RateComplementarity::Build(const RateProblem& rates) {
   load_.resize(num_pairs);
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
     const Pair& pair = pairs_[static_cast<std::size_t>(p)];
-    const Eigen::Index n = 2 * pair.contact, t = n + 1;
     const bool motion = !pair.motion_is_second;
-    Eigen::RowVectorXd row;
-    if (pair.force == Inequality::kNormalReaction)
-      row = row_of(n, motion);
-    else
-      row = pair.Sense() * row_of(t, motion);
-    if (pair.force != Inequality::kNormalReaction && !motion) row += friction(pair) * row_of(n, false);
+    Eigen::RowVectorXd row = pair.sign * row_of(pair.port, motion);
+    if (pair.other >= 0 && !motion) row += pair.weight * row_of(pair.other, false);
     matrix_.row(p) = row.head(num_pairs);
     load_[p] = row[num_pairs];
-    // Of a contact that may slide either way, z+ is v_t and what it slides the other way.
-    if (pair.force == Inequality::kConePlus && motion && roles_[static_cast<std::size_t>(pair.contact)] == Role::kRough)
-      matrix_(p, p + 1) += 1.0;
+    // Of a port that may move either way, the motion one way is its motion and what it moves the other way.
+    if (pair.first_of_two && motion) matrix_(p, p + 1) += 1.0;
   }
   if (!matrix_.allFinite() || !load_.allFinite()) return;
   Eigen::VectorXd scale(num_pairs);
@@ -203,7 +215,7 @@ void RateComplementarity::Build(const RateProblem& rates) {
   matrix_ = scale.asDiagonal() * matrix_ * scale.asDiagonal();
   load_ = scale.cwiseProduct(load_);
   exists_ = true;
-  unique_ = std::none_of(roles_.begin(), roles_.end(), [](Role role) { return role == Role::kRough; }) &&
+  unique_ = std::none_of(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.first_of_two; }) &&
             HasOneSolutionForEach(matrix_);
 }
 
@@ -211,17 +223,14 @@ std::vector<RateSolution> RateComplementarity::Solve(double load_sense) const {
   std::vector<RateSolution> solutions;
   for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_)) {
     solutions.push_back({{}, !solution.degenerate.empty()});
-    std::vector<ContactState>& states = solutions.back().states;
-    for (const ContactModes& option : options_) states.push_back(option.front().state);
-    for (std::size_t k = 0; k < roles_.size(); ++k)
-      states[static_cast<std::size_t>(weakly_active_[k])] =
-          roles_[k] == Role::kFrictionless ? ContactState::kClosed : ContactState::kStick;
+    States& states = solutions.back().states;
+    for (const Modes& option : options_) states.push_back(option.front().state);
+    for (std::size_t k = 0; k < base_.size(); ++k) states[static_cast<std::size_t>(weakly_active_[k])] = base_[k];
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      const auto i = static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(pairs_[p].contact)]);
+      int& state = states[static_cast<std::size_t>(weakly_active_[pairs_[p].law])];
       const bool moves = solution.second[p] == pairs_[p].motion_is_second;
-      // Motions both ways are those of no reaction: the first one stands for both.
-      if (moves && states[i] != ContactState::kOpen && !Slips(states[i]))
-        states[i] = NextMode(*contacts_[i], pairs_[p].force, {states[i], 0}).state;
+      // Motions both ways are those of no force: the first one stands for both.
+      if (moves && state == base_[pairs_[p].law]) state = pairs_[p].next;
     }
   }
   return solutions;

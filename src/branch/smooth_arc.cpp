@@ -114,7 +114,7 @@ Correction SmoothArc::Correct(const Eigen::VectorXd& guess, const Eigen::VectorX
   return Newton(guess, row, value, false);
 }
 
-Correction SmoothArc::CorrectOnto(const Constraint& limit, const Eigen::VectorXd& guess) {
+Correction SmoothArc::CorrectOnto(const Limit& limit, const Eigen::VectorXd& guess) {
   // The inequality as the last equation, linearised anew where it is curved.
   Eigen::VectorXd from = guess;
   Correction correction;

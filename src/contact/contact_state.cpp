@@ -13,10 +13,10 @@ std::string_view ToString(ContactState state) {
   return "unknown";
 }
 
-double SlipRatio(ContactState state, double friction) {
-  if (state == ContactState::kSlipPlus) return -friction;
-  if (state == ContactState::kSlipMinus) return friction;
-  return 0.0;
+std::vector<ContactState> ContactStatesOf(const Modes& modes, std::size_t contacts) {
+  std::vector<ContactState> states;
+  for (std::size_t i = 0; i < contacts; ++i) states.push_back(StateOf(modes[i]));
+  return states;
 }
 
 }  // namespace contact_path

@@ -91,13 +91,13 @@ struct DeformablePair::Columns {
   }
 
   // By (dofs, s), from values by place; what is held, and s, have no share.
-  PairVector Gather(const Place& values) const {
-    PairVector q = PairVector::Zero(static_cast<Eigen::Index>(dofs.size()) + 1);
+  LawVector Gather(const Place& values) const {
+    LawVector q = LawVector::Zero(static_cast<Eigen::Index>(dofs.size()) + 1);
     for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k] >= 0) q[of[k]] += sign[k] * values[static_cast<Eigen::Index>(k)];
     return q;
   }
-  Place Scatter(const PairVector& q) const {
+  Place Scatter(const LawVector& q) const {
     Place values = Place::Zero();
     for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k] >= 0) values[static_cast<Eigen::Index>(k)] = sign[k] * q[of[k]];
@@ -105,15 +105,15 @@ struct DeformablePair::Columns {
   }
   // rows(k): by place, of the place k.
   template <typename Rows>
-  PairMatrix GatherRows(Rows rows) const {
+  LawMatrix GatherRows(Rows rows) const {
     const auto size = static_cast<Eigen::Index>(dofs.size()) + 1;
-    PairMatrix matrix = PairMatrix::Zero(size, size);
+    LawMatrix matrix = LawMatrix::Zero(size, size);
     for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k] >= 0) matrix.row(of[k]) += sign[k] * Gather(rows(k)).transpose();
     return matrix;
   }
 
-  PairDofs dofs;
+  LawDofs dofs;
   Places<Eigen::Index> of{};  // by place; -1: held, or there is none
   Places<double> sign{};      // by place, of the dof in it: an image has the dofs of its node
 };
@@ -122,12 +122,14 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
                                const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds)
     : boundary_(std::move(boundary)), patches_(patches), node_(node) {
   Traits traits;
-  traits.friction = friction;
-  traits.deformable = traits.curved = traits.has_patches = true;
-  traits.moves_gap.set();
-  traits.moves_xi.set();
+  traits.largest_ratio = friction;
+  traits.compliant = traits.dofs_by_piece = traits.curved = true;
+  traits.moves[kNormal].set();
+  traits.moves[kTangent].set();
+  SurfaceTraits of_surface;
+  of_surface.has_patches = true;
   // The foot moves by no more than the largest motion of a control node.
-  traits.largest_gap_rate = std::sqrt(2.0);
+  traits.largest_reach_rate = std::sqrt(2.0);
   if (force_bounds.size() > 0) {
     const auto bound_of = [&](const NodePlace& place) {
       double bound = 0.0;
@@ -141,32 +143,33 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
     if (own > 0.0 && (own < bound || bound == 0.0)) bound = own;
     traits.force_unit = ForceUnitAbove(bound);
   }
-  SetTraits(traits);
+  SetContact(traits, of_surface);
 }
 
-PairDofs DeformablePair::Dofs(int patch) const { return Columns(*this, patches_.Patch(patch)).dofs; }
+LawDofs DeformablePair::Dofs(int patch) const { return Columns(*this, patches_.Patch(patch)).dofs; }
 
-void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference,
-                              Kinematics* kinematics) const {
+void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
+                              PortsAt* ports) const {
   const Stencil stencil(*this, u, KnownPatch(u, s, patch));
   const Columns columns(*this, stencil.patch);
   const Values<ByPlaces> at = stencil.ByAllPlaces();
   const double length = boundary_->LengthPerKnot();
-  kinematics->dofs = columns.dofs;
-  kinematics->gap = at.gap.value() - boundary_->Radius();
-  kinematics->xi = length * (stencil.patch.knot + stencil.foot) - reference;
+  PortAt &gap = (*ports)[kNormal], &xi = (*ports)[kTangent];
+  ports->dofs = columns.dofs;
+  gap.motion = at.gap.value() - boundary_->Radius();
+  xi.motion = length * (stencil.patch.knot + stencil.foot) - reference[kTangent];
   Place gap_gradient, knot_gradient;
   for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
     gap_gradient[static_cast<Eigen::Index>(k)] = at.gap_gradient[k].value();
     knot_gradient[static_cast<Eigen::Index>(k)] = at.knot_gradient[k].value();
   }
-  kinematics->gap_gradient = columns.Gather(gap_gradient);
-  kinematics->xi_gradient = length * columns.Gather(knot_gradient);
-  kinematics->gap_hessian = columns.GatherRows([&](std::size_t k) { return at.gap_gradient[k].derivatives(); });
-  kinematics->xi_hessian =
+  gap.gradient = columns.Gather(gap_gradient);
+  xi.gradient = length * columns.Gather(knot_gradient);
+  gap.hessian = columns.GatherRows([&](std::size_t k) { return at.gap_gradient[k].derivatives(); });
+  xi.hessian =
       length * columns.GatherRows([&](std::size_t k) { return at.knot_gradient[k].derivatives(); });
-  kinematics->slip_factor = at.slip.value() / length;
-  kinematics->slip_factor_gradient = columns.Gather(at.slip.derivatives()) / length;
+  xi.factor = at.slip.value() / length;
+  xi.factor_gradient = columns.Gather(at.slip.derivatives()) / length;
 }
 
 double DeformablePair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
@@ -216,8 +219,8 @@ bool DeformablePair::Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& af
   return false;
 }
 
-void DeformablePair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                                  const PairVector& weights, PairMatrix* hessian) const {
+void DeformablePair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
+                                  const LawVector& weights, LawMatrix* hessian) const {
   const Stencil stencil(*this, u, KnownPatch(u, s, patch));
   const Columns columns(*this, stencil.patch);
   const Values<TwiceByPlaces> at = stencil.TwiceByAllPlaces();
@@ -229,28 +232,29 @@ void DeformablePair::ForceHessian(const Eigen::VectorXd& u, double s, int patch,
     along_knot = TwiceByPlaces(along_knot + weight * at.knot_gradient[k]);
   }
   // c grad xi is the slip per knot times the gradient of the knot.
-  const TwiceByPlaces force = TwiceByPlaces(Constant<TwiceByPlaces>(rn) * along_gap) +
-                              TwiceByPlaces(Constant<TwiceByPlaces>(rt) * TwiceByPlaces(at.slip * along_knot));
+  const TwiceByPlaces force = TwiceByPlaces(Constant<TwiceByPlaces>(forces[kNormal]) * along_gap) +
+                              TwiceByPlaces(Constant<TwiceByPlaces>(forces[kTangent]) * TwiceByPlaces(at.slip * along_knot));
   *hessian = columns.GatherRows(
       [&](std::size_t k) { return force.derivatives()[static_cast<Eigen::Index>(k)].derivatives(); });
 }
 
-PairVector DeformablePair::SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                                             const PairVector& direction) const {
+LawVector DeformablePair::SecondDirectional(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
+                                            const LawVector& direction) const {
   const Stencil stencil(*this, u, KnownPatch(u, s, patch));
   const Columns columns(*this, stencil.patch);
   const Values<TwiceAlong> at = stencil.TwiceAlongCurve(columns.Scatter(direction), Place::Zero());
   Place second;
   for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
-    const TwiceAlong force = TwiceAlong(Constant<TwiceAlong>(rn) * at.gap_gradient[k]) +
-                             TwiceAlong(Constant<TwiceAlong>(rt) * TwiceAlong(at.slip * at.knot_gradient[k]));
+    const TwiceAlong force = TwiceAlong(Constant<TwiceAlong>(forces[kNormal]) * at.gap_gradient[k]) +
+                             TwiceAlong(Constant<TwiceAlong>(forces[kTangent]) * TwiceAlong(at.slip * at.knot_gradient[k]));
     second[static_cast<Eigen::Index>(k)] = force.derivatives()[0].derivatives()[0];
   }
   return columns.Gather(second);
 }
 
-Eigen::Vector3d DeformablePair::SlipFactorAlong(const Eigen::VectorXd& u, double s, int patch, const PairVector& first,
-                                                const PairVector& second) const {
+Eigen::Vector3d DeformablePair::FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
+                                            const LawVector& first, const LawVector& second) const {
+  if (port == kNormal) return Law::FactorAlong(port, u, s, patch, first, second);
   const Stencil stencil(*this, u, KnownPatch(u, s, patch));
   const Columns columns(*this, stencil.patch);
   const Values<TwiceAlong> at = stencil.TwiceAlongCurve(columns.Scatter(first), columns.Scatter(second));

@@ -15,13 +15,14 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
                      const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin)
     : surface_(std::move(surface)), held_(Eigen::Vector2d::Zero()), turn_(motion.turn), about_(motion.about) {
   Traits traits;
-  traits.friction = friction;
+  SurfaceTraits of_surface;
+  traits.largest_ratio = friction;
   traits.curved = !surface_->Flat() || turn_ != 0.0;
-  traits.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
-  traits.seamless = surface_->Seamless();
+  of_surface.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
+  of_surface.seamless = surface_->Seamless();
   const XiRange range = surface_->Range();
-  if (surface_->Closed()) traits.round = range.end - range.begin;
-  if (slip_origin) traits.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
+  if (surface_->Closed()) of_surface.round = range.end - range.begin;
+  if (slip_origin) of_surface.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
   for (const int dof : motion.dofs)
     if (dof >= 0) traits.dofs.push_back(dof);
   const auto last = static_cast<Eigen::Index>(traits.dofs.size());
@@ -37,11 +38,11 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
   if (traits.curved) {
     // The foot moves along the surface, where both components of the node have a share in gap and xi.
     for (std::size_t i = 0; i < traits.dofs.size() + 1; ++i)
-      traits.moves_gap[i] = traits.moves_xi[i] = !motion_.col(static_cast<Eigen::Index>(i)).isZero(0.0);
-    traits.largest_gap_rate = 1.0 + motion.velocity.norm();
+      traits.moves[kNormal][i] = traits.moves[kTangent][i] = !motion_.col(static_cast<Eigen::Index>(i)).isZero(0.0);
+    traits.largest_reach_rate = 1.0 + motion.velocity.norm();
     if (turn_ != 0.0) {  // the farther from the centre of the turn, the faster
-      traits.moves_gap[traits.dofs.size()] = traits.moves_xi[traits.dofs.size()] = true;
-      traits.largest_gap_rate = std::numeric_limits<double>::infinity();
+      traits.moves[kNormal][traits.dofs.size()] = traits.moves[kTangent][traits.dofs.size()] = true;
+      traits.largest_reach_rate = std::numeric_limits<double>::infinity();
     }
   } else {
     const Projection at_origin = surface_->Project(Eigen::Vector2d::Zero(), 0);
@@ -52,10 +53,10 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
     gap_gradient_ = motion_.transpose() * n;
     xi_gradient_ = motion_.transpose() * t;
     for (Eigen::Index i = 0; i <= last; ++i) {
-      traits.moves_gap[static_cast<std::size_t>(i)] = gap_gradient_[i] != 0.0;
-      traits.moves_xi[static_cast<std::size_t>(i)] = xi_gradient_[i] != 0.0;
+      traits.moves[kNormal][static_cast<std::size_t>(i)] = gap_gradient_[i] != 0.0;
+      traits.moves[kTangent][static_cast<std::size_t>(i)] = xi_gradient_[i] != 0.0;
     }
-    traits.largest_gap_rate = 1.0 + std::abs(gap_gradient_[last]);
+    traits.largest_reach_rate = 1.0 + std::abs(gap_gradient_[last]);
   }
   if (force_bounds.size() > 0) {
     double bound = 0.0;
@@ -64,7 +65,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
           (traits.curved ? 1.0 : std::abs(gap_gradient_[static_cast<Eigen::Index>(i)])) * force_bounds[traits.dofs[i]];
     traits.force_unit = ForceUnitAbove(bound);
   }
-  SetTraits(traits);
+  SetContact(traits, of_surface);
 }
 
 // x(q) = a + R z with z = p - a - velocity s, and its derivatives. The rotation R by the angle -turn s has the
@@ -83,25 +84,25 @@ struct RigidPair::Frame {
   }
 
   // Second derivatives by q of weights . x.
-  PairMatrix Second(const Eigen::Vector2d& weights) const {
+  LawMatrix Second(const Eigen::Vector2d& weights) const {
     return Bordered(motion.transpose() * (rotation[1].transpose() * weights), weights.dot(rotation[2] * z));
   }
   // d/dh along q + h direction of the first derivatives, and of the second ones.
-  Motion FirstChange(const PairVector& direction) const {
+  Motion FirstChange(const LawVector& direction) const {
     const double ds = direction[last];
     Motion change = ds * rotation[1] * motion;
     change.col(last) += rotation[1] * (motion * direction) + ds * (rotation[2] * z);
     return change;
   }
-  PairMatrix SecondChange(const Eigen::Vector2d& weights, const PairVector& direction) const {
+  LawMatrix SecondChange(const Eigen::Vector2d& weights, const LawVector& direction) const {
     const double ds = direction[last];
     return Bordered(ds * (motion.transpose() * (rotation[2].transpose() * weights)),
                     weights.dot(ds * (rotation[3] * z) + rotation[2] * (motion * direction)));
   }
 
   // border in the last row and in the last column, both in the last place, and corner besides.
-  PairMatrix Bordered(const PairVector& border, double corner) const {
-    PairMatrix matrix = PairMatrix::Zero(last + 1, last + 1);
+  LawMatrix Bordered(const LawVector& border, double corner) const {
+    LawMatrix matrix = LawMatrix::Zero(last + 1, last + 1);
     matrix.row(last) += border.transpose();
     matrix.col(last) += border;
     matrix(last, last) += corner;
@@ -134,24 +135,25 @@ int RigidPair::NearestKnown(int patch) const {
   return surface_->Closed() ? patch : std::clamp(patch, 0, surface_->NumPatches() - 1);
 }
 
-void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference,
-                         Kinematics* kinematics) const {
-  kinematics->dofs = OwnDofs();
+void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
+                         PortsAt* ports) const {
+  ports->dofs = OwnDofs();
+  PortAt &gap = (*ports)[kNormal], &xi = (*ports)[kTangent];
   if (!Curved()) {
-    kinematics->gap = gap_offset_ + kinematics->Rate(gap_gradient_, u, s);
-    kinematics->xi = xi_offset_ - reference + kinematics->Rate(xi_gradient_, u, s);
-    kinematics->gap_gradient = gap_gradient_;
-    kinematics->xi_gradient = xi_gradient_;
+    gap.motion = gap_offset_ + ports->Rate(gap_gradient_, u, s);
+    xi.motion = xi_offset_ - reference[kTangent] + ports->Rate(xi_gradient_, u, s);
+    gap.gradient = gap_gradient_;
+    xi.gradient = xi_gradient_;
     return;
   }
   const int known = NearestKnown(KnownPatch(u, s, patch));
   const auto fill = [&](const Projection& at, const Motion& first) {
-    kinematics->gap = at.gap;
-    kinematics->xi = at.xi - reference;
-    kinematics->gap_gradient = first.transpose() * at.normal;
-    kinematics->xi_gradient = first.transpose() * XiGradient(at);
-    kinematics->gap_hessian = first.transpose() * GapHessian(at) * first;
-    kinematics->xi_hessian = first.transpose() * XiHessian(at) * first;
+    gap.motion = at.gap;
+    xi.motion = at.xi - reference[kTangent];
+    gap.gradient = first.transpose() * at.normal;
+    xi.gradient = first.transpose() * XiGradient(at);
+    gap.hessian = first.transpose() * GapHessian(at) * first;
+    xi.hessian = first.transpose() * XiHessian(at) * first;
   };
   if (turn_ == 0.0) {
     fill(surface_->Project(Position(u, s), known), motion_);
@@ -160,8 +162,8 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double r
   const Frame frame(*this, u, s);
   const Projection at = surface_->Project(frame.x, known);
   fill(at, frame.first);
-  kinematics->gap_hessian += frame.Second(at.normal);
-  kinematics->xi_hessian += frame.Second(XiGradient(at));
+  gap.hessian += frame.Second(at.normal);
+  xi.hessian += frame.Second(XiGradient(at));
 }
 
 double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
@@ -190,12 +192,13 @@ int RigidPair::PatchAfter(const Eigen::VectorXd& u, double s, int from) const {
   return HasPatches() ? PatchBeside(*surface_, Position(u, s), from) : 0;
 }
 
-void RigidPair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                             const PairVector& direction, PairMatrix* derivative) const {
+void RigidPair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
+                             const LawVector& direction, LawMatrix* derivative) const {
+  const double rn = forces[kNormal], rt = forces[kTangent];
   // The force is a gradient: its second derivatives, weighted, are the change of its first ones along the weights.
   const auto change = [&](const Projection& at, const Motion& first) {
     const Eigen::Vector2d v = first * direction;
-    return PairMatrix(first.transpose() * (rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v)) * first);
+    return LawMatrix(first.transpose() * (rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v)) * first);
   };
   const int known = NearestKnown(KnownPatch(u, s, patch));
   if (turn_ == 0.0) {
@@ -206,7 +209,7 @@ void RigidPair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, doub
   const Projection at = surface_->Project(frame.x, known);
   const Eigen::Matrix2d hessian = rn * GapHessian(at) + rt * XiHessian(at);
   const Eigen::Vector2d weights = rn * at.normal + rt * XiGradient(at);
-  const PairMatrix mixed = frame.FirstChange(direction).transpose() * hessian * frame.first;
+  const LawMatrix mixed = frame.FirstChange(direction).transpose() * hessian * frame.first;
   *derivative = change(at, frame.first) + mixed + mixed.transpose() +
                 frame.Second(hessian * (frame.first * direction)) + frame.SecondChange(weights, direction);
 }

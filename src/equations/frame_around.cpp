@@ -5,20 +5,25 @@
 
 namespace contact_path {
 
-Frame FrameAround(const Structure& structure, const ContactPairs& contacts, const std::vector<std::size_t>& framed,
+Frame FrameAround(const Structure& structure, const Laws& laws, const std::vector<std::size_t>& framed,
                   const Eigen::SparseMatrix<double>& tangent) {
-  const auto nd = static_cast<int>(structure.NumDofs()), count = static_cast<int>(framed.size());
-  const int first_support = nd + 2 * count;
+  const auto nd = static_cast<int>(structure.NumDofs());
+  int first_support = nd;
+  for (const std::size_t i : framed) first_support += static_cast<int>(laws[i].NumPorts());
   const int s = first_support + static_cast<int>(structure.PrescribedDofs().size());
   std::vector<std::pair<int, int>> forces;  // dof, unknown
-  for (int i = 0; i < count; ++i) {
-    const ContactPair& pair = *contacts[framed[static_cast<std::size_t>(i)]];
-    const PairDofs dofs = pair.Dofs(0);
+  int place = nd;
+  for (const std::size_t i : framed) {
+    const Law& law = laws[i];
+    const LawDofs dofs = law.Dofs(0);
     for (std::size_t k = 0; k < dofs.size(); ++k) {
-      // Slip makes both components of r_n.
-      if (pair.MovesGap(k) || pair.MovesXi(k)) forces.emplace_back(dofs[k], nd + 2 * i);
-      if (pair.MovesXi(k)) forces.emplace_back(dofs[k], nd + 2 * i + 1);
+      bool moves = false;  // forces that follow that of port 0 are in its column
+      for (std::size_t p = law.NumPorts(); p-- > 0;) {
+        moves = moves || law.Moves(p, k);
+        if (p == 0 ? moves : law.Moves(p, k)) forces.emplace_back(dofs[k], place + static_cast<int>(p));
+      }
     }
+    place += static_cast<int>(law.NumPorts());
   }
   int support = first_support;
   for (const PrescribedDof& prescribed : structure.PrescribedDofs()) forces.emplace_back(prescribed.dof, support++);
@@ -40,15 +45,15 @@ Frame FrameAround(const Structure& structure, const ContactPairs& contacts, cons
     entries.push_back(s);
     end_equation();
   }
-  for (int i = 0; i < count; ++i) {
-    const ContactPair& pair = *contacts[framed[static_cast<std::size_t>(i)]];
-    const PairDofs dofs = pair.Dofs(0);
-    const std::size_t m = dofs.size();
-    for (const bool gap : {true, false}) {
-      for (std::size_t k = 0; k < m; ++k)
-        if (gap ? pair.MovesGap(k) : pair.MovesXi(k)) entries.push_back(dofs[k]);
-      entries.push_back(nd + 2 * i + (gap ? 0 : 1));
-      if (gap ? pair.MovesGap(m) : pair.MovesXi(m)) entries.push_back(s);
+  place = nd;
+  for (const std::size_t i : framed) {
+    const Law& law = laws[i];
+    const LawDofs dofs = law.Dofs(0);
+    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+      for (std::size_t k = 0; k < dofs.size(); ++k)
+        if (law.Moves(p, k)) entries.push_back(dofs[k]);
+      entries.push_back(place++);
+      if (law.Moves(p, dofs.size())) entries.push_back(s);
       end_equation();
     }
   }

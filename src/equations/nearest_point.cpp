@@ -43,7 +43,7 @@ class ShortestStep {
 
 }  // namespace
 
-NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& start, const Eigen::VectorXd& wanted) {
+NearestPoint FindNearestPoint(FixedModeSystem* system, const Eigen::VectorXd& start, const Eigen::VectorXd& wanted) {
   const Eigen::Index size = wanted.size();
   const Eigen::Index reactions = system->NumUnknowns() - size;
   NearestPoint result;

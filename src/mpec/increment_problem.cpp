@@ -20,13 +20,13 @@ constexpr double kOutside = 1e-2, kLeastDistance = 1e-3;
 int Int(Eigen::Index index) { return static_cast<int>(index); }
 
 // Of a patch of a deformable surface and the patches beside it.
-PairDofs DofsBeside(const ContactPair& pair, int patch) {
+LawDofs DofsBeside(const ContactPair& pair, int patch) {
   if (!pair.Deformable()) return pair.Dofs(patch);
   std::set<int> all;
   for (const int beside : {patch - 1, patch, patch + 1})
     if (pair.HasPatch(beside))
       for (const int dof : pair.Dofs(beside)) all.insert(dof);
-  PairDofs dofs;
+  LawDofs dofs;
   for (const int dof : all) dofs.push_back(dof);
   return dofs;
 }
@@ -47,9 +47,9 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd + 1);  // T_t r_t^k, by (u, s)
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(working_set_[i])];
-    const int patch = pair.KnownPatch(from_.u, from_.s, from_.Patch(static_cast<std::size_t>(working_set_[i])));
-    Kinematics at_start;
-    pair.Evaluate(from_.u, from_.s, patch, 0.0, &at_start);
+    const int patch = pair.KnownPatch(from_.u, from_.s, from_.modes[static_cast<std::size_t>(working_set_[i])].piece);
+    PortsAt at_start;
+    pair.Evaluate(from_.u, from_.s, patch, {}, &at_start);
     const double reference = pair.SlipReference(from_.u, from_.s, patch);
     const Eigen::Index rn = nd + 1 + static_cast<Eigen::Index>(i);
     Slot slot{&pair, patch, DofsBeside(pair, patch), at_start, reference, rn, -1, -1, num_constraints_, -1};
@@ -59,9 +59,10 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
       slot.lambda = num_variables_++;
       slot.friction_row = num_constraints_;
       num_constraints_ += 5;
-      const double rt = at_start.slip_factor * from_.rt[working_set_[i]];
-      at_start.AddForce(at_start.xi_gradient, rt, &drive);
-      drive[nd] += rt * at_start.xi_gradient[at_start.xi_gradient.size() - 1];  // the motion of the obstacle
+      const double rt = at_start[kTangent].factor * TangentialReaction(from_, static_cast<std::size_t>(working_set_[i]));
+      const LawVector& gradient = at_start[kTangent].gradient;
+      at_start.AddForce(gradient, rt, &drive);
+      drive[nd] += rt * gradient[gradient.size() - 1];  // the motion of the obstacle
     }
     slots_.push_back(slot);
   }
@@ -81,30 +82,30 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   ForEachHessianEntry(x, 1.0, Eigen::VectorXd::Zero(num_constraints_), record(&hessian_structure_));
 }
 
-Kinematics IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const {
+PortsAt IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const {
   const Eigen::Index nd = structure_.NumDofs();
-  Kinematics at;
+  PortsAt at;
   if (!slot.pair->Curved()) {
     at.dofs = slot.dofs;
-    at.gap_gradient = slot.at_start.gap_gradient;
-    at.xi_gradient = slot.at_start.xi_gradient;
-    at.gap = slot.at_start.gap / goal_.length + at.Rate(at.gap_gradient, x.head(nd), x[nd]);
-    at.xi = (slot.at_start.xi - slot.reference) / goal_.length + at.Rate(at.xi_gradient, x.head(nd), x[nd]);
+    at[kNormal].gradient = slot.at_start[kNormal].gradient;
+    at[kTangent].gradient = slot.at_start[kTangent].gradient;
+    at[kNormal].motion = slot.at_start[kNormal].motion / goal_.length + at.Rate(at[kNormal].gradient, x.head(nd), x[nd]);
+    at[kTangent].motion = (slot.at_start[kTangent].motion - slot.reference) / goal_.length + at.Rate(at[kTangent].gradient, x.head(nd), x[nd]);
     return at;
   }
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
   const double s = from_.s + goal_.length * x[nd];
-  slot.pair->Evaluate(u, s, PatchOf(slot, u, s), slot.reference, &at);
-  at.gap /= goal_.length;
-  at.xi /= goal_.length;
-  at.gap_hessian *= goal_.length;
-  at.xi_hessian *= goal_.length;
+  slot.pair->Evaluate(u, s, PatchOf(slot, u, s), {0.0, slot.reference}, &at);
+  at[kNormal].motion /= goal_.length;
+  at[kTangent].motion /= goal_.length;
+  at[kNormal].hessian *= goal_.length;
+  at[kTangent].hessian *= goal_.length;
   if (!slot.pair->Deformable()) return at;
-  at.gap_gradient = Spread(at.gap_gradient, at.dofs, slot.dofs);
-  at.xi_gradient = Spread(at.xi_gradient, at.dofs, slot.dofs);
-  at.gap_hessian = Spread(at.gap_hessian, at.dofs, slot.dofs);
-  at.xi_hessian = Spread(at.xi_hessian, at.dofs, slot.dofs);
-  at.slip_factor_gradient = goal_.length * Spread(at.slip_factor_gradient, at.dofs, slot.dofs);
+  at[kNormal].gradient = Spread(at[kNormal].gradient, at.dofs, slot.dofs);
+  at[kTangent].gradient = Spread(at[kTangent].gradient, at.dofs, slot.dofs);
+  at[kNormal].hessian = Spread(at[kNormal].hessian, at.dofs, slot.dofs);
+  at[kTangent].hessian = Spread(at[kTangent].hessian, at.dofs, slot.dofs);
+  at[kTangent].factor_gradient = goal_.length * Spread(at[kTangent].factor_gradient, at.dofs, slot.dofs);
   at.dofs = slot.dofs;
   return at;
 }
@@ -114,16 +115,16 @@ int IncrementProblem::PatchOf(const Slot& slot, const Eigen::VectorXd& u, double
   return slot.pair->Deformable() ? std::clamp(patch, slot.start_patch - 1, slot.start_patch + 1) : patch;
 }
 
-Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y, const Eigen::VectorXd& rn,
-                                                const Eigen::VectorXd& rt) const {
+Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y, const PathPoint& reactions) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_), values;
   x.head(y.size()) = y;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
-    x[slot.rn] = rn[working_set_[i]] / goal_.length;
+    const auto contact = static_cast<std::size_t>(working_set_[i]);
+    x[slot.rn] = NormalReaction(reactions, contact) / goal_.length;
     if (slot.rt < 0) continue;
-    x[slot.rt] = rt[working_set_[i]] / goal_.length;
-    x[slot.lambda] = std::abs(ScaledKinematics(slot, x).xi);
+    x[slot.rt] = TangentialReaction(reactions, contact) / goal_.length;
+    x[slot.lambda] = std::abs(ScaledKinematics(slot, x)[kTangent].motion);
   }
   Constraints(x, &values);
   for (const Support& support : supports_) x[support.reaction] = values[support.prescribed->dof];
@@ -134,12 +135,12 @@ std::vector<IncrementProblem::Zeros> IncrementProblem::ZerosAt(const PathPoint& 
   std::vector<Zeros> zeros;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
-    const ContactState state = point.states[static_cast<std::size_t>(working_set_[i])];
-    const Kinematics at = ScaledKinematics(slot, x);
+    const ContactState state = StateOf(point, static_cast<std::size_t>(working_set_[i]));
+    const PortsAt at = ScaledKinematics(slot, x);
     const bool open = state == ContactState::kOpen;
     if (!open) zeros.push_back({{slot.gap_row, x[slot.rn]}});
     if (slot.rt < 0) {
-      if (open) zeros.push_back({{num_constraints_ + slot.rn, at.gap}});
+      if (open) zeros.push_back({{num_constraints_ + slot.rn, at[kNormal].motion}});
       continue;
     }
     const double mu = slot.pair->Friction(), limit = mu * x[slot.rn], rt = x[slot.rt], lambda = x[slot.lambda];
@@ -147,13 +148,13 @@ std::vector<IncrementProblem::Zeros> IncrementProblem::ZerosAt(const PathPoint& 
     if (state == ContactState::kStick)
       zeros.push_back({{row, 0.5 * (limit - rt)}, {row + 1, 0.5 * (limit + rt)}});
     else if (state == ContactState::kSlipPlus)
-      zeros.push_back({{row, 0.5 * (limit - rt)}, {row + 3, 0.5 * (lambda + at.xi)}});
+      zeros.push_back({{row, 0.5 * (limit - rt)}, {row + 3, 0.5 * (lambda + at[kTangent].motion)}});
     else if (state == ContactState::kSlipMinus)
-      zeros.push_back({{row + 1, 0.5 * (limit + rt)}, {row + 2, 0.5 * (lambda - at.xi)}});
-    else if (at.gap > mu * (lambda + std::abs(at.xi)))  // both products are of these two: the larger one counts
-      zeros.push_back({{row + 2, 0.5 * at.gap / mu}, {row + 3, 0.5 * at.gap / mu}});
+      zeros.push_back({{row + 1, 0.5 * (limit + rt)}, {row + 2, 0.5 * (lambda - at[kTangent].motion)}});
+    else if (at[kNormal].motion > mu * (lambda + std::abs(at[kTangent].motion)))  // both products are of these two: the larger one counts
+      zeros.push_back({{row + 2, 0.5 * at[kNormal].motion / mu}, {row + 3, 0.5 * at[kNormal].motion / mu}});
     else
-      zeros.push_back({{row + 2, 0.5 * (lambda - at.xi)}, {row + 3, 0.5 * (lambda + at.xi)}});
+      zeros.push_back({{row + 2, 0.5 * (lambda - at[kTangent].motion)}, {row + 3, 0.5 * (lambda + at[kTangent].motion)}});
   }
   return zeros;
 }
@@ -161,9 +162,9 @@ std::vector<IncrementProblem::Zeros> IncrementProblem::ZerosAt(const PathPoint& 
 std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point, double barrier) const {
   PrimalDual result;
   Eigen::VectorXd& x = result.x;
-  x = StartingPoint(Chord(from_, point) / goal_.length, point.rn, point.rt);
+  x = StartingPoint(Chord(from_, point) / goal_.length, point);
   for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (slots_[i].rt >= 0 && point.states[static_cast<std::size_t>(working_set_[i])] == ContactState::kOpen)
+    if (slots_[i].rt >= 0 && StateOf(point, static_cast<std::size_t>(working_set_[i])) == ContactState::kOpen)
       x[slots_[i].lambda] += 1.0;  // which is free, but for being far from its bounds
 
   // The equations that hold there, with one row more: the multipliers of (9), and how far to move off.
@@ -236,31 +237,28 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
   PathPoint point;
   point.u = from_.u + goal_.length * x.head(nd);
   point.s = from_.s + goal_.length * x[nd];
-  point.rn = Eigen::VectorXd::Zero(from_.rn.size());
-  point.rt = Eigen::VectorXd::Zero(from_.rt.size());
-  point.states.assign(contacts_.size(), ContactState::kOpen);
-  if (!from_.patches.empty()) point.patches.assign(contacts_.size(), kNearestPatch);
+  point.forces = Eigen::VectorXd::Zero(from_.forces.size());
+  for (const auto& contact : contacts_) point.modes.push_back(contact->OfPoint({NumberOf(ContactState::kOpen), 0}));
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
-    if (!point.patches.empty())
-      point.patches[static_cast<std::size_t>(working_set_[i])] = PatchOf(slot, point.u, point.s);
-    point.rn[working_set_[i]] = goal_.length * x[slot.rn];
-    if (slot.rt >= 0) point.rt[working_set_[i]] = goal_.length * x[slot.rt];
-    ContactState& state = point.states[static_cast<std::size_t>(working_set_[i])];
-    const Kinematics at = ScaledKinematics(slot, x);
-    if (at.gap > x[slot.rn]) continue;
+    const auto contact = static_cast<std::size_t>(working_set_[i]);
+    SetReaction(contact, goal_.length * x[slot.rn], slot.rt >= 0 ? goal_.length * x[slot.rt] : 0.0, &point);
+    Mode& mode = point.modes[contact];
+    mode.piece = PatchOf(slot, point.u, point.s);
+    const PortsAt at = ScaledKinematics(slot, x);
+    if (at[kNormal].motion > x[slot.rn]) continue;
     if (slot.rt < 0) {
-      state = ContactState::kClosed;
+      mode.state = NumberOf(ContactState::kClosed);
       continue;
     }
-    const double slip = at.xi;
+    const double slip = at[kTangent].motion;
     const double margin = slot.pair->Friction() * x[slot.rn] - std::abs(x[slot.rt]);
     if (std::abs(slip) <= margin)
-      state = ContactState::kStick;
+      mode.state = NumberOf(ContactState::kStick);
     else
       // Motion and reaction are opposed; at a corner the motion is zero, with a reaction next to zero it is the motion
       // that tells.
-      state = slip > x[slot.rt] ? ContactState::kSlipPlus : ContactState::kSlipMinus;
+      mode.state = NumberOf(slip > x[slot.rt] ? ContactState::kSlipPlus : ContactState::kSlipMinus);
   }
   return point;
 }
@@ -317,15 +315,15 @@ void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* va
   force /= goal_.length;
   values->resize(num_constraints_);
   for (const Slot& slot : slots_) {
-    const Kinematics at = ScaledKinematics(slot, x);
-    const double gap = at.gap, rn = x[slot.rn];
-    at.AddForce(at.gap_gradient, -rn, &force);
+    const PortsAt at = ScaledKinematics(slot, x);
+    const double gap = at[kNormal].motion, rn = x[slot.rn];
+    at.AddForce(at[kNormal].gradient, -rn, &force);
     (*values)[slot.gap_row] = gap;
     (*values)[slot.gap_row + 1] = gap * rn;
     if (slot.rt < 0) continue;
-    const double slip = at.xi, rt = x[slot.rt], lambda = x[slot.lambda];
+    const double slip = at[kTangent].motion, rt = x[slot.rt], lambda = x[slot.lambda];
     const double mu = slot.pair->Friction();
-    at.AddForce(at.xi_gradient, -rt * at.slip_factor, &force);
+    at.AddForce(at[kTangent].gradient, -rt * at[kTangent].factor, &force);
     values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
         lambda * mu * rn + slip * rt;
   }
@@ -348,14 +346,14 @@ void IncrementProblem::ForEachVariable(const Slot& slot, Visit visit) const {
 template <typename Visit>
 void IncrementProblem::ForEachGapVariable(const Slot& slot, Visit visit) const {
   ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-    if (slot.pair->MovesGap(static_cast<std::size_t>(k))) visit(variable, k);
+    if (slot.pair->Moves(kNormal, static_cast<std::size_t>(k))) visit(variable, k);
   });
 }
 
 template <typename Visit>
 void IncrementProblem::ForEachXiVariable(const Slot& slot, Visit visit) const {
   ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-    if (slot.pair->MovesXi(static_cast<std::size_t>(k))) visit(variable, k);
+    if (slot.pair->Moves(kTangent, static_cast<std::size_t>(k))) visit(variable, k);
   });
 }
 
@@ -368,32 +366,32 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
   for (Eigen::Index row = 0; row < nd; ++row)
     if (structure_.ReferenceLoad()[row] != 0.0) emit(row, nd, -structure_.ReferenceLoad()[row]);
   for (const Slot& slot : slots_) {
-    const Kinematics at = ScaledKinematics(slot, x);
+    const PortsAt at = ScaledKinematics(slot, x);
     const double rn = x[slot.rn];
     ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-      const double gradient = at.gap_gradient[k];
+      const double gradient = at[kNormal].gradient[k];
       if (variable < nd) emit(variable, slot.rn, -gradient);
       emit(slot.gap_row, variable, gradient);
       emit(slot.gap_row + 1, variable, gradient * rn);
     });
-    emit(slot.gap_row + 1, slot.rn, at.gap);
+    emit(slot.gap_row + 1, slot.rn, at[kNormal].motion);
     if (slot.pair->Curved()) {
       // r_n and r_t over S, and Hessians times S.
-      PairMatrix change = rn * at.gap_hessian;
-      if (slot.rt >= 0) change += (x[slot.rt] * at.slip_factor) * at.xi_hessian;
+      LawMatrix change = rn * at[kNormal].hessian;
+      if (slot.rt >= 0) change += (x[slot.rt] * at[kTangent].factor) * at[kTangent].hessian;
       if (slot.rt >= 0 && slot.pair->Deformable())
-        change += x[slot.rt] * at.xi_gradient * at.slip_factor_gradient.transpose();
+        change += x[slot.rt] * at[kTangent].gradient * at[kTangent].factor_gradient.transpose();
       ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
         if (row == nd) return;
         ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) { emit(row, column, -change(a, b)); });
       });
     }
     if (slot.rt < 0) continue;
-    const double slip = at.xi, rt = x[slot.rt], lambda = x[slot.lambda];
+    const double slip = at[kTangent].motion, rt = x[slot.rt], lambda = x[slot.lambda];
     const double mu = slot.pair->Friction();
     ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-      const double gradient = at.xi_gradient[k];
-      if (variable < nd) emit(variable, slot.rt, -at.slip_factor * gradient);
+      const double gradient = at[kTangent].gradient[k];
+      if (variable < nd) emit(variable, slot.rt, -at[kTangent].factor * gradient);
       emit(slot.friction_row, variable, -gradient);
       emit(slot.friction_row + 1, variable, gradient);
       emit(slot.friction_row + 4, variable, gradient * rt);
@@ -428,16 +426,16 @@ void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double fact
   emit(nd, nd, factor * goal_.gamma2_factor);
   for (const Slot& slot : slots_) {
     const ContactPair& pair = *slot.pair;
-    const Kinematics at = ScaledKinematics(slot, x);
+    const PortsAt at = ScaledKinematics(slot, x);
     const double gap_product = multipliers[slot.gap_row + 1];
     ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-      emit(slot.rn, variable, gap_product * at.gap_gradient[k]);
+      emit(slot.rn, variable, gap_product * at[kNormal].gradient[k]);
     });
     const double slip_product = slot.rt < 0 ? 0.0 : multipliers[slot.friction_row + 4];
     if (slot.rt >= 0) {
       emit(slot.lambda, slot.rn, slip_product * pair.Friction());
       ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-        emit(slot.rt, variable, slip_product * at.xi_gradient[k]);
+        emit(slot.rt, variable, slip_product * at[kTangent].gradient[k]);
       });
     }
     if (pair.Curved()) ForEachCurvatureEntry(slot, at, x, multipliers, emit);
@@ -445,32 +443,32 @@ void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double fact
 }
 
 template <typename Emit>
-void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const Kinematics& at, const Eigen::VectorXd& x,
+void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
                                              const Eigen::VectorXd& multipliers, Emit emit) const {
   const Eigen::Index nd = structure_.NumDofs();
   const ContactPair& pair = *slot.pair;
   const bool frictional = slot.rt >= 0;
   const double rn = x[slot.rn], rt = frictional ? x[slot.rt] : 0.0;
   // The multipliers of the equilibrium equations; the multiplier of the load factor is none.
-  const PairVector weights = at.Local(multipliers.head(nd), 0.0);
-  const PairVector by_rn = at.gap_hessian * weights;
+  const LawVector weights = at.Local(multipliers.head(nd), 0.0);
+  const LawVector by_rn = at[kNormal].hessian * weights;
   ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rn, variable, -by_rn[k]); });
   double along_gap = multipliers[slot.gap_row] + multipliers[slot.gap_row + 1] * rn, along_xi = 0.0;
   if (frictional) {
-    PairVector by_rt = at.slip_factor * (at.xi_hessian * weights);
-    if (pair.Deformable()) by_rt += at.xi_gradient.dot(weights) * at.slip_factor_gradient;
+    LawVector by_rt = at[kTangent].factor * (at[kTangent].hessian * weights);
+    if (pair.Deformable()) by_rt += at[kTangent].gradient.dot(weights) * at[kTangent].factor_gradient;
     ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rt, variable, -by_rt[k]); });
     along_xi =
         multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
   }
-  PairMatrix second;
+  LawMatrix second;
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
   const double s = from_.s + goal_.length * x[nd];
   const int patch = PatchOf(slot, u, s);
-  const PairDofs dofs = pair.Dofs(patch);
-  pair.ForceHessian(u, s, patch, rn, rt, LocalOf(dofs, multipliers.head(nd), 0.0), &second);
+  const LawDofs dofs = pair.Dofs(patch);
+  pair.ForceHessian(u, s, patch, {rn, rt}, LocalOf(dofs, multipliers.head(nd), 0.0), &second);
   if (pair.Deformable()) second = Spread(second, dofs, slot.dofs);
-  second = along_gap * at.gap_hessian + along_xi * at.xi_hessian - goal_.length * goal_.length * second;
+  second = along_gap * at[kNormal].hessian + along_xi * at[kTangent].hessian - goal_.length * goal_.length * second;
   ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
     ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) {
       if (row >= column) emit(row, column, second(a, b));

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "contact_path/equations/nearest_point.h"
-#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -19,13 +18,24 @@ constexpr double kSamePoint = 0.1;
 
 constexpr int kMaxActiveSetChanges = 8;
 
+// Whether the limit is of what slides, which is held beyond it.
+bool IsOfSliding(const LimitRule& rule, const StateRule& state) {
+  return state.slides && !rule.OfForces() && !rule.OfPiece();
+}
+
 // Barrier parameter of a start that is nearly the solution: it counts as solved.
 constexpr double kBarrierAtOnce = 0.5 * tolerances::kAccepted;
 
 }  // namespace
 
-IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs& contacts, NonlinearSolver* solver)
-    : structure_(structure), contacts_(contacts), solver_(solver), system_(structure, contacts), tracker_(contacts) {}
+IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs& contacts, const Laws& laws,
+                                 NonlinearSolver* solver)
+    : structure_(structure),
+      contacts_(contacts),
+      laws_(laws),
+      solver_(solver),
+      system_(structure, laws),
+      tracker_(laws) {}
 
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
@@ -40,7 +50,7 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
   included.erase(
       std::remove_if(included.begin(), included.end(),
                      [&](std::size_t i) {
-                       return !contacts_[i]->HasPatch(contacts_[i]->KnownPatch(from.u, from.s, from.Patch(i)));
+                       return !contacts_[i]->HasPatch(contacts_[i]->KnownPatch(from.u, from.s, from.modes[i].piece));
                      }),
       included.end());
   for (;;) {
@@ -84,7 +94,7 @@ IncrementTrial IncrementSolver::SolvePredicted(const PathPoint& from, const Incr
                                                const RegularisationSchedule& schedule) {
   IncrementTrial trial;
   std::vector<int> working_set;
-  const auto touches = [](const PathPoint& point, std::size_t i) { return point.states[i] != ContactState::kOpen; };
+  const auto touches = [](const PathPoint& point, std::size_t i) { return StateOf(point, i) != ContactState::kOpen; };
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (touches(from, i)) working_set.push_back(static_cast<int>(i));
   const Eigen::VectorXd wanted =
@@ -118,8 +128,7 @@ void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& p
                                 IncrementTrial* trial) {
   // Redundant reactions, of which an interior point is as large as it may be, change as little as they can.
   PathPoint least = trial->point;
-  least.rn = from.rn;
-  least.rt = from.rt;
+  least.forces = from.forces;
   const Eigen::VectorXd wanted = problem.UnconstrainedMinimiser();
   std::optional<PathPoint> exact = Exact(from, wanted, least, kSamePoint * goal.length, true);
   if (!exact) exact = Exact(from, wanted, trial->point, kSamePoint * goal.length, true);
@@ -135,14 +144,13 @@ void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& p
 
 std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eigen::VectorXd& wanted, PathPoint point,
                                                 double reach, bool corners) {
-  const Eigen::VectorXd reference = SlipReferences(contacts_, from);
+  const Eigen::VectorXd reference = laws_.ReferencesAt(from);
   const PathPoint guess = point;
-  std::vector<ContactState> states = guess.states;
-  std::vector<int> patches = guess.patches;
-  std::vector<bool> changed(states.size(), false);
-  std::vector<Constraint> active;
+  Modes modes = guess.modes;
+  std::vector<bool> changed(modes.size(), false);
+  std::vector<Limit> active;
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {
-    system_.SetStates(states, reference, patches);
+    system_.SetModes(modes, reference);
     system_.SetActive(active);
     const NearestPoint nearest = FindNearestPoint(&system_, system_.Pack(point), wanted);
     if (!nearest.converged) return std::nullopt;
@@ -151,37 +159,35 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
     // Of what has not moved, rounding alone would tell whether it has stuck or slipped.
     const double slow = tolerances::kRootOfRounding * Distance(from, point);
     bool kept = true;
-    int last = -1;  // contact that has changed
-    for (const Constraint& constraint : system_.Inequalities()) {
-      if (constraint.contact == last) continue;
-      const auto i = static_cast<std::size_t>(constraint.contact);
-      const bool rests = IsOfSlip(constraint.inequality) && !changed[i];
-      const double least = rests ? slow : -tolerances::kResidual * system_.UnitOf(constraint);
-      if (system_.Value(constraint, nearest.x) >= least) continue;
-      const bool held = std::find(active.begin(), active.end(), constraint) != active.end();
+    int last = -1;  // law that has changed
+    for (const Limit& limit : system_.Limits()) {
+      if (limit.law == last) continue;
+      const auto i = static_cast<std::size_t>(limit.law);
+      const LimitRule& rule = system_.RuleOf(limit);
+      const bool rests = IsOfSliding(rule, laws_[i].In(modes[i])) && !changed[i];
+      const double least = rests ? slow : -tolerances::kResidual * rule.unit;
+      if (system_.Value(limit, nearest.x) >= least) continue;
+      const bool held = std::find(active.begin(), active.end(), limit) != active.end();
       if (held) continue;
       kept = false;
-      last = constraint.contact;
-      const ContactMode next =
-          NextMode(*contacts_[i], constraint.inequality, {states[i], patches.empty() ? 0 : patches[i]});
-      if (KeepsPatch(constraint.inequality)) {
-        patches[i] = next.patch;
-        if (!contacts_[i]->HasPatch(next.patch)) return std::nullopt;
+      last = limit.law;
+      if (rule.OfPiece()) {
+        modes[i] = laws_[i].Next(modes[i], limit.id);
+        if (!laws_[i].Exists(modes[i])) return std::nullopt;
         continue;
       }
-      if (contacts_[i]->Deformable() && patches[i] == kNearestPatch)
-        patches[i] = contacts_[i]->PatchAt(point.u, point.s);
-      // The state beyond it; where the contact comes back from there, the corner between both.
+      if (laws_[i].Compliant()) modes[i] = laws_[i].Known(point.u, point.s, modes[i]);
+      // The state beyond it; where the law comes back from there, the corner between both.
       if (corners && changed[i])
-        active.push_back(constraint);
+        active.push_back(limit);
       else
-        states[i] = next.state;
+        modes[i].state = rule.next;
       changed[i] = true;
     }
     if (!kept) continue;
-    for (const Constraint& constraint : active)
-      if (IsOfSlip(constraint.inequality))
-        point.states[static_cast<std::size_t>(constraint.contact)] = ContactState::kStick;
+    for (const Limit& limit : active)
+      if (const auto i = static_cast<std::size_t>(limit.law); IsOfSliding(system_.RuleOf(limit), laws_[i].In(modes[i])))
+        point.modes[i].state = laws_[i].In(modes[i]).held;
     return point;
   }
   return std::nullopt;

@@ -13,7 +13,7 @@ constexpr int kMostShorter = 6;  // times half as long
 
 }  // namespace
 
-std::optional<BalancedStep> NextBalancedStep(const Model& model, const BranchOptions& options, ContactArc* arc,
+std::optional<BalancedStep> NextBalancedStep(const Model& model, const BranchOptions& options, ModeArc* arc,
                                              const CurvePoint& from, double length, const StepEnds& ends,
                                              std::optional<double> stored) {
   const StepLimits limits = {options.smallest_step, options.step, options.prediction, options.smallest_cosine,
@@ -35,7 +35,7 @@ std::optional<BalancedStep> NextBalancedStep(const Model& model, const BranchOpt
   return best;
 }
 
-bool Balance(const Model& model, const FixedStateSystem& system, std::optional<double> stored, BalancedStep* step) {
+bool Balance(const Model& model, const FixedModeSystem& system, std::optional<double> stored, BalancedStep* step) {
   const Step& of = step->at.step;
   const double unit = model.scaling.force * model.scaling.length;
   const auto stored_at = [&](const Eigen::VectorXd& x) {

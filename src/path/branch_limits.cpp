@@ -66,15 +66,17 @@ void BranchMethod::NoteStability(const CurvePoint& end, const AcceptedPoint& inc
 
 void BranchMethod::NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment) {
   PathPoint leaves = increment.point;
-  leaves.states = arc_.system().states();
-  leaves.patches = arc_.system().patches();
+  leaves.modes = arc_.system().modes();
   int changed = 0;
-  for (std::size_t i = 0; i < leaves.states.size(); ++i)
-    changed += leaves.states[i] != increment.point.states[i] ? 1 : 0;
+  for (std::size_t i = 0; i < leaves.modes.size(); ++i)
+    changed += leaves.modes[i].state != increment.point.modes[i].state ? 1 : 0;
   StabilityMonitor::Decides decides = StabilityMonitor::Decides::kBoth;
-  if (changed == 1 && at.event.Kind() == EventKind::kContactEvent && !KeepsPatch(at.event.fails->inequality)) {
-    const bool closes = at.event.fails->inequality == Inequality::kGap || IsOfSlip(at.event.fails->inequality);
-    decides = closes ? StabilityMonitor::Decides::kArrival : StabilityMonitor::Decides::kDeparture;
+  if (changed == 1 && at.event.Kind() == EventKind::kContactEvent) {
+    const auto i = static_cast<std::size_t>(at.event.fails->law);
+    const LimitRule& rule = model_.laws[i].Rule(increment.point.modes[i].state, at.event.fails->id);
+    // What a motion ends at is held from then on, and what a force ends at lets go.
+    if (!rule.OfPiece())
+      decides = rule.OfForces() ? StabilityMonitor::Decides::kDeparture : StabilityMonitor::Decides::kArrival;
   }
   limit_.monitor()->NoteEvent(leaves, current_, decides);
 }

@@ -26,7 +26,7 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       limit_(model, options, cancelled_),
       departure_(model, {limit_.parameter(), options.forward, !limit_.IsFollowed(), options.largest_reaction},
                  cancelled_),
-      arc_(model.structure, model.contacts),
+      arc_(model.structure, model.laws),
       step_length_(options.step),
       increments_(options.increments),
       events_(options.events) {
@@ -66,8 +66,7 @@ std::optional<End> BranchMethod::SetOut(const PathPoint& from, StartRecord* foun
                                             &current_, &found->branches);
   if (limit_.monitor() != nullptr) {
     PathPoint leaves = from;
-    if (!end) leaves.states = arc_.system().states();
-    if (!end) leaves.patches = arc_.system().patches();
+    if (!end) leaves.modes = arc_.system().modes();
     limit_.monitor()->Start(leaves, end ? nullptr : &current_);
     found->stability = limit_.monitor()->record();
   }
@@ -85,7 +84,7 @@ Advance BranchMethod::TakeJump(const PathPoint& from) {
   ++increments_;
   const bool lands = jump.kind == Kind::kLands;
   PathPoint point = lands ? jump.landing.point : from;
-  if (!lands) point.states = arc_.system().states();
+  if (!lands) TakeStates(arc_.system().modes(), &point);
   StartRecord found;
   Advance advance;
   advance.end = SetOut(point, &found);
@@ -105,7 +104,7 @@ Advance BranchMethod::TakeJump(const PathPoint& from) {
 
 bool BranchMethod::Resume(const ResumePoint& at) {
   if (!(at.solve.next_step > 0.0)) return false;
-  arc_.SetStates(at.point.states, at.point);
+  arc_.SetModes(at.point);
   Eigen::VectorXd towards = Chord(at.before, at.point);
   // The next increment sets out with the factors of this one's end, which are those of the tangent at its start: with
   // another tangent Newton's method takes other steps, and the predictor is judged by the first of them.
@@ -119,7 +118,7 @@ bool BranchMethod::Resume(const ResumePoint& at) {
 
 Advance BranchMethod::ChangeReactions(const PathPoint& from) {
   PathPoint point = departure_.TakeBegin();
-  point.states = arc_.system().states();
+  TakeStates(arc_.system().modes(), &point);
   if (options_.ChoiceAt(increments_ + 1, 0) != nullptr)
     return Ended({EndReason::kNoSuchBranch, {{sentences::kOnlyReactionsChange, {}, increments_ + 1}}});
   AcceptedPoint increment = IncrementAt(std::move(point), from);
@@ -166,8 +165,8 @@ std::optional<PathPoint> BranchMethod::InnerPoint(const Step& step, const PathPo
 }
 
 std::optional<PathPoint> BranchMethod::PointApart(const Step& step, double t) const {
-  ContactArc arc(model_.structure, model_.contacts);
-  arc.SetStates(arc_.system().states(), arc_.system().Unpack(step.start.x), arc_.Rests());
+  ModeArc arc(model_.structure, model_.laws);
+  arc.SetModes(arc_.system().Unpack(step.start.x), arc_.Rests());
   const Correction found = arc.CorrectOnPlane(step.Point(t), step.normal);
   return found.converged ? std::optional(arc.system().Unpack(found.x)) : std::nullopt;
 }
@@ -176,7 +175,7 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   Step& step = at->step;
   if (options_.returns == nullptr || !(step.length > 0.0) || options_.HasChoiceAfter(increments_, events_))
     return std::nullopt;
-  const FixedStateSystem& system = arc_.system();
+  const FixedModeSystem& system = arc_.system();
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step.end.x));
   if (!found) return std::nullopt;
   const Eigen::VectorXd x = system.Pack(found->point);
@@ -237,8 +236,8 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
   const std::vector<Branch> branches =
-      BifurcationBranches(arc_, model_.contacts, *at.event.crossing, limit_.parameter());
-  RecordBranches(branches, record);
+      BifurcationBranches(arc_, *at.event.crossing, limit_.parameter());
+  RecordBranches(model_, branches, record);
   const std::size_t stable = limit_.IsFollowed() ? branches.size() : StableBranch(branches);
   facts->stable_ahead = limit_.monitor() != nullptr && stable < branches.size();
   const auto goes_on = [&](const Branch& branch) {
@@ -265,9 +264,7 @@ std::optional<End> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoi
   facts->contact_event = facts->leaves_curve = true;
   increment->event.number = ++events_;
   if (SlidesOff(at, increment->point)) {
-    const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.fails->contact)];
-    return End{EndReason::kPathEnd,
-               {{lost.OnSurface() ? sentences::kSlidesOffSurface : sentences::kSlidesOffObstacle, lost.Name()}}};
+    return End{EndReason::kPathEnd, {SlidesOffCause(model_, *at.event.fails)}};
   }
   std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, events_), increment);
   facts->load_turns = !end && TurnsLoad(at);
@@ -275,9 +272,9 @@ std::optional<End> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoi
 }
 
 std::optional<End> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
-  const std::vector<ContactState> states = arc_.system().states();
+  const Modes modes = arc_.system().modes();
   if (std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, 0), increment)) return end;
-  const bool goes_on = arc_.system().states() == states &&
+  const bool goes_on = SameStates(arc_.system().modes(), modes) &&
                        arc_.system().Norm(current_.first - at.step.end.first) <= tolerances::kSameTangent;
   if (goes_on) {
     if (!departure_.ChangesReactions()) current_ = at.step.end;
@@ -300,9 +297,9 @@ std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice*
 
 bool BranchMethod::FailsByRounding(const ArcStep& at) const {
   if (at.event.Kind() != EventKind::kContactEvent || at.step.length > 0.0) return false;
-  const Constraint& constraint = *at.event.fails;
-  const double rate = arc_.system().Rate(constraint, at.step.end.x, at.step.end.first);
-  return rate < 0.0 && rate >= -tolerances::kRate * arc_.system().UnitOf(constraint);
+  const Limit& limit = *at.event.fails;
+  const double rate = arc_.system().Rate(limit, at.step.end.x, at.step.end.first);
+  return rate < 0.0 && rate >= -tolerances::kRate * arc_.system().UnitOf(limit);
 }
 
 bool BranchMethod::TurnsLoad(const ArcStep& at) {
@@ -324,12 +321,14 @@ bool BranchMethod::TurnsLoad(const ArcStep& at) {
 }
 
 bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
-  if (at.event.Kind() != EventKind::kContactEvent || !KeepsPatch(at.event.fails->inequality)) return false;
-  const Constraint& constraint = *at.event.fails;
-  const auto i = static_cast<std::size_t>(constraint.contact);
-  const int next = point.Patch(i) + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
-  const double force = departure_.ToleranceAt(point).force * model_.contacts[i]->NormalForceUnit();
-  return !model_.contacts[i]->HasPatch(next) && point.rn[constraint.contact] > force;
+  if (at.event.Kind() != EventKind::kContactEvent) return false;
+  const auto i = static_cast<std::size_t>(at.event.fails->law);
+  const Law& law = model_.laws[i];
+  if (!law.Rule(point.modes[i].state, at.event.fails->id).OfPiece() ||
+      law.Exists(law.Next(point.modes[i], at.event.fails->id))) return false;
+  // Where it bears, its limit of forces is not at zero.
+  const Modes modes = model_.laws.ModesAt(point, i, departure_.ToleranceAt(point));
+  return std::none_of(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).idle; });
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {

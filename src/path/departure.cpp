@@ -11,20 +11,20 @@
 namespace contact_path {
 namespace {
 
-// Gaps of one size are all active or none: a tolerance that lies among them is widened to the largest.
-double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
+// Motions of one size are all active or none: a tolerance that lies among them is widened to the largest.
+double CoverMotions(const Laws& laws, const PathPoint& point, double tolerance) {
   std::vector<double> beyond;
   bool among = false;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const double gap = contacts[i]->Gap(point.u, point.s, point.Patch(i));
-    among = among || (gap > 0.5 * tolerance && gap <= tolerance);
-    if (gap > tolerance && gap <= 0.5 * tolerances::kTouching) beyond.push_back(gap);
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const double motion = laws[i].Motion(0, point.u, point.s, point.modes[i].piece, {});
+    among = among || (motion > 0.5 * tolerance && motion <= tolerance);
+    if (motion > tolerance && motion <= 0.5 * tolerances::kTouching) beyond.push_back(motion);
   }
   if (!among) return tolerance;
   std::sort(beyond.begin(), beyond.end());
-  for (const double gap : beyond) {
-    if (gap > 2.0 * tolerance) break;
-    tolerance = gap;
+  for (const double motion : beyond) {
+    if (motion > 2.0 * tolerance) break;
+    tolerance = motion;
   }
   return tolerance;
 }
@@ -35,26 +35,12 @@ Cause NoBranch(const BranchSet& on) {
   return {on.complete_by == Completeness::kNone ? sentences::kNoBranchFound : sentences::kNoBranch};
 }
 
-std::string_view SignOfRate(Inequality inequality) {
-  switch (inequality) {
-    case Inequality::kGap: return sentences::kGapRateSign;
-    case Inequality::kNormalReaction: return sentences::kReactionRateSign;
-    case Inequality::kConePlus:
-    case Inequality::kConeMinus: return sentences::kMarginRateSign;
-    case Inequality::kSlip:
-    case Inequality::kTotalSlip: return sentences::kSlipRateSign;
-    case Inequality::kPatchBegin:
-    case Inequality::kPatchEnd: break;
-  }
-  return sentences::kPatchRateSign;
-}
-
 }  // namespace
 
-void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
+void RecordBranches(const Model& model, const std::vector<Branch>& branches, EventRecord* record) {
   for (const Branch& branch : branches)
     record->branches.push_back(
-        {branch.states, branch.load_rate, branch.parameter_rate, branch.dissipation_rate, branch.turn});
+        {ContactStatesOf(branch.modes, model.contacts.size()), branch.load_rate, branch.parameter_rate, branch.dissipation_rate, branch.turn});
 }
 
 std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
@@ -73,7 +59,7 @@ Departure::Departure(const Model& model, const DepartureOptions& options, std::f
       cancelled_(std::move(cancelled)),
       largest_reaction_(options.largest_reaction == nullptr ? &own_ : options.largest_reaction) {}
 
-void Departure::NoteReactions(const PathPoint& point) { largest_reaction_->Note(model_.contacts, point); }
+void Departure::NoteReactions(const PathPoint& point) { largest_reaction_->Note(model_.laws, point); }
 
 ActiveSetTolerance Departure::ToleranceAt(const PathPoint& point) const {
   return ActiveSetTolerance::For(largest_reaction_->of_stage, point.s);
@@ -88,18 +74,18 @@ Arrival Departure::StartArrival() const {
 }
 
 std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice,
-                                    ContactArc* arc, CurvePoint* current, EventRecord* record) {
+                                    ModeArc* arc, CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
   arrival.parameter = options_.parameter;
   arrival.forward = options_.forward && options_.parameter.Sense(arrival.direction, arrival.direction.size()) >= 0;
   ActiveSetTolerance tolerance = ToleranceAt(point);
-  tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
-  const BranchSet on = FindBranches(model_.structure, model_.contacts, point, arrival, tolerance, cancelled_);
+  tolerance.motion = CoverMotions(model_.laws, point, tolerance.motion);
+  const BranchSet on = FindBranches(model_.structure, model_.laws, point, arrival, tolerance, cancelled_);
   if (on.cancelled) return End{EndReason::kCancelled, {{sentences::kCancelled}}};
   record->weakly_active = on.weakly_active;
   record->complete = on.complete_by != Completeness::kNone;
   record->complete_by = ToString(on.complete_by);
-  RecordBranches(on.branches, record);
+  RecordBranches(model_, on.branches, record);
   if (on.branches.empty() && arrival.failed) return UnknownRate(*arrival.failed, arc->system(), *current);
   if (on.branches.empty()) {
     End end{EndReason::kPathEnd, {NoBranch(on)}};
@@ -127,20 +113,19 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
   return std::nullopt;
 }
 
-// Where the path arrives at an inequality that fails by a rate within the tolerance.
-End Departure::UnknownRate(const Constraint& constraint, const FixedStateSystem& system, const CurvePoint& at) const {
-  const double unit = IsMotion(constraint.inequality) ? model_.scaling.length : model_.scaling.force;
-  return {
-      EndReason::kNotDetermined,
-      {{SignOfRate(constraint.inequality), model_.scene.contacts[static_cast<std::size_t>(constraint.contact)].Name(),
-        unit * system.Rate(constraint, at.x, at.first), unit * tolerances::kRate * system.UnitOf(constraint)}}};
+// Where the path arrives at a limit that fails by a rate within the tolerance.
+End Departure::UnknownRate(const Limit& limit, const FixedModeSystem& system, const CurvePoint& at) const {
+  const double unit = system.RuleOf(limit).OfForces() ? model_.scaling.force : model_.scaling.length;
+  return {EndReason::kNotDetermined,
+          {UnknownRateCause(model_, limit, unit * system.Rate(limit, at.x, at.first),
+                            unit * tolerances::kRate * system.UnitOf(limit))}};
 }
 
 // Sets out on a branch from `point`. False: it cannot be followed.
-bool Departure::SetOut(const PathPoint& point, const Branch& branch, ContactArc* arc, CurvePoint* current) const {
+bool Departure::SetOut(const PathPoint& point, const Branch& branch, ModeArc* arc, CurvePoint* current) const {
   PathPoint begin = point;
-  begin.patches = branch.patches;
-  arc->SetStates(branch.states, begin, branch.singular);
+  begin.modes = branch.modes;
+  arc->SetModes(begin, branch.singular);
   const bool regular = arc->Derivatives(arc->system().Pack(point), branch.direction, current) &&
                        arc->system().Norm(current->first - branch.first) <= tolerances::kSameTangent;
   if (regular) return true;

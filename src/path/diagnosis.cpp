@@ -36,6 +36,20 @@ std::string SolidName(const Scene& scene, std::size_t i) {
   return "solids[" + std::to_string(i) + "]" + (name.empty() ? name : " (" + name + ")");
 }
 
+std::string_view SignOfRate(ContactLimit limit) {
+  switch (limit) {
+    case ContactLimit::kGap: return sentences::kGapRateSign;
+    case ContactLimit::kNormalReaction: return sentences::kReactionRateSign;
+    case ContactLimit::kConePlus:
+    case ContactLimit::kConeMinus: return sentences::kMarginRateSign;
+    case ContactLimit::kSlip:
+    case ContactLimit::kTotalSlip: return sentences::kSlipRateSign;
+    case ContactLimit::kPatchBegin:
+    case ContactLimit::kPatchEnd: break;
+  }
+  return sentences::kPatchRateSign;
+}
+
 // The sharpest curve of its obstacle on which a contact stands, or which begins where it stands. Scaled.
 struct SharpestCurve {
   double curvature = 0.0;  // > 0 on both sides
@@ -46,17 +60,17 @@ SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int pa
   SharpestCurve sharpest;
   if (!pair.Curved()) return sharpest;
   const int known = pair.KnownPatch(point.u, point.s, patch);
-  Kinematics kinematics;
-  pair.Evaluate(point.u, point.s, known, 0.0, &kinematics);
-  if (kinematics.dofs.empty()) return sharpest;
-  const double xi = kinematics.xi;
+  PortsAt ports;
+  pair.Evaluate(point.u, point.s, known, {}, &ports);
+  if (ports.dofs.empty()) return sharpest;
+  const double xi = ports[kTangent].motion;
   const XiRange range = pair.RangeOf(known);
-  const PairVector place = kinematics.Local(point.u, point.s);
+  const LawVector place = ports.Local(point.u, point.s);
   sharpest.size = std::max(std::abs(xi), place.head(place.size() - 1).lpNorm<Eigen::Infinity>());
   const auto look = [&](int at) {
-    pair.Evaluate(point.u, point.s, at, 0.0, &kinematics);
-    const auto dofs = static_cast<Eigen::Index>(kinematics.dofs.size());
-    sharpest.curvature = std::max(sharpest.curvature, kinematics.gap_hessian.topLeftCorner(dofs, dofs).norm());
+    pair.Evaluate(point.u, point.s, at, {}, &ports);
+    const auto dofs = static_cast<Eigen::Index>(ports.dofs.size());
+    sharpest.curvature = std::max(sharpest.curvature, ports[kNormal].hessian.topLeftCorner(dofs, dofs).norm());
   };
   look(known);
   if (xi - range.begin <= tolerances::kTouching && pair.HasPatch(known - 1)) look(known - 1);
@@ -83,7 +97,7 @@ double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::si
   const ContactPair& pair = *model.contacts[contact];
   const double gap = std::abs(pair.Gap(model.structure.Start(), 0.0, kNearestPatch));
   if (!(gap <= tolerances::kTouching)) return 0.0;
-  return tolerances::kMargin * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.Patch(contact));
+  return tolerances::kMargin * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.modes[contact].piece);
 }
 
 // The element of a solid whose area has shrunk most at one of its integration points, if that is nearly to nothing.
@@ -183,9 +197,9 @@ Causes LightLoads(const Model& model) {
 
 Causes CurveTooSharp(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const double rn = point.rn[static_cast<Eigen::Index>(i)];
+    const double rn = NormalReaction(point, i);
     if (!(rn > 0.0)) continue;
-    const SharpestCurve at = SharpestAt(*model.contacts[i], point, point.Patch(i));
+    const SharpestCurve at = SharpestAt(*model.contacts[i], point, point.modes[i].piece);
     const double turn = std::numeric_limits<double>::epsilon() * at.size * at.curvature;
     const double stiffness = rn * at.curvature, radius = model.scaling.length / at.curvature;
     const std::string name = model.scene.contacts[i].Name();
@@ -199,11 +213,10 @@ Causes CurveTooSharp(const Model& model, const PathPoint& point) {
 Causes HiddenSlip(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
-    const auto k = static_cast<Eigen::Index>(i);
     if (!pair.Curved() || !pair.Frictional()) continue;
-    const double rn = point.rn[k], margin = pair.Friction() * rn - std::abs(point.rt[k]);
+    const double rn = NormalReaction(point, i), margin = pair.Friction() * rn - std::abs(TangentialReaction(point, i));
     if (!(rn > 0.0) || margin > tolerances::kAccepted * (1.0 + rn)) continue;
-    const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;
+    const double curvature = SharpestAt(pair, point, point.modes[i].piece).curvature;
     // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
     const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;
     const double least = tolerances::kRate;
@@ -219,7 +232,7 @@ Causes HiddenSlip(const Model& model, const PathPoint& point) {
 Causes BeyondHalfRound(const Model& model, const Residuals& residuals) {
   if (!(residuals.friction_law > tolerances::kAccepted)) return {};
   const bool possible = std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& contact) {
-    return contact->HasTotalLaw() && contact->Round() > 0.0;
+    return contact->Holonomic() && contact->Round() > 0.0;
   });
   if (!possible) return {};
   return {{sentences::kHalfRound}};
@@ -228,8 +241,8 @@ Causes BeyondHalfRound(const Model& model, const Residuals& residuals) {
 Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
-    if (!pair.Deformable() || to.states[i] == ContactState::kOpen) continue;
-    if (pair.Overrun(from.u, to.u, pair.KnownPatch(to.u, to.s, to.Patch(i))))
+    if (!pair.Deformable() || StateOf(to, i) == ContactState::kOpen) continue;
+    if (pair.Overrun(from.u, to.u, pair.KnownPatch(to.u, to.s, to.modes[i].piece)))
       return {{sentences::kOverrun, model.scene.contacts[i].Name()}};
   }
   return {};
@@ -239,8 +252,8 @@ Causes StandsAtEnd(const Model& model, const PathPoint& point) {
   std::vector<std::size_t> at_end;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
-    if (!pair.HasPatches() || point.states[i] == ContactState::kOpen) continue;
-    const int patch = pair.KnownPatch(point.u, point.s, point.Patch(i));
+    if (!pair.HasPatches() || StateOf(point, i) == ContactState::kOpen) continue;
+    const int patch = pair.KnownPatch(point.u, point.s, point.modes[i].piece);
     const double xi = pair.Xi(point.u, point.s, patch);
     const XiRange range = pair.RangeOf(patch);
     if ((xi - range.begin <= tolerances::kTouching && !pair.HasPatch(patch - 1)) ||
@@ -252,11 +265,21 @@ Causes StandsAtEnd(const Model& model, const PathPoint& point) {
            model.scene.contacts[at_end.front()].Name(), static_cast<long>(at_end.size()) - 1}};
 }
 
+Cause SlidesOffCause(const Model& model, const Limit& limit) {
+  const ContactCandidate& lost = model.scene.contacts[static_cast<std::size_t>(limit.law)];
+  return {lost.OnSurface() ? sentences::kSlidesOffSurface : sentences::kSlidesOffObstacle, lost.Name()};
+}
+
+Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, double tolerance) {
+  return {SignOfRate(static_cast<ContactLimit>(limit.id)),
+          model.scene.contacts[static_cast<std::size_t>(limit.law)].Name(), rate, tolerance};
+}
+
 Causes BehindBoundary(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
     const bool ends = pair.Deformable() || (pair.HasPatches() && pair.Round() == 0.0);
-    if (!ends || point.states[i] != ContactState::kOpen) continue;
+    if (!ends || StateOf(point, i) != ContactState::kOpen) continue;
     const double gap = pair.Gap(point.u, point.s, kNearestPatch);
     if (gap < -tolerances::kTouching)
       return {{pair.Deformable() ? sentences::kBehindSurface : sentences::kBehindObstacle,
@@ -297,7 +320,7 @@ Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint&
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
   const double most = std::max(tolerances::kUnitComponent, tolerances::kSmallShare * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const double pull = -point.rn[static_cast<Eigen::Index>(i)];
+    const double pull = -NormalReaction(point, i);
     const double unit = model.contacts[i]->ForceUnit();
     if (!(pull > most * unit) || pull <= ForceOfClosingAtStart(model, point, i)) continue;
     const double error = tolerances::kResidual * model.contacts[i]->NormalForceUnit();
@@ -314,7 +337,7 @@ Causes ContactTooSoft(const Model& model, const PathPoint& point, double least) 
   const Eigen::VectorXd stiffness = DiagonalStiffness(model, point);
   const double unit = model.scaling.force / model.scaling.length;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const double largest = LargestOf(stiffness, *model.contacts[i], point, point.Patch(i));
+    const double largest = LargestOf(stiffness, *model.contacts[i], point, point.modes[i].piece);
     if (largest > 0.0 && largest < least)
       return {{sentences::kStiffnessSign, model.scene.contacts[i].Name(), unit * largest, unit * least}};
   }

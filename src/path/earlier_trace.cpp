@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/iterations.h"
 #include "contact_path/path/increment_lists.h"
 #include "contact_path/path/model.h"
@@ -24,7 +24,7 @@ class Restorer {
  public:
   // along_arc: arc lengths are those of arcs, and not of chords. lists: that increments are to have.
   Restorer(const Model& model, bool along_arc, const LongLists& lists)
-      : model_(model), along_arc_(along_arc), lists_(lists), arc_(model.structure, model.contacts) {}
+      : model_(model), along_arc_(along_arc), lists_(lists), arc_(model.structure, model.laws) {}
 
   // Finds the state of the increment at `at`, the one before having its own; false: it is not found.
   bool Restore(std::vector<Increment>* increments, std::size_t at) {
@@ -35,15 +35,19 @@ class Restorer {
     const std::optional<Eigen::VectorXd> towards = Towards(*increments, at, from);
     if (!towards) return false;
     const bool parts = before.event.taken >= 1 && before.event.taken <= static_cast<int>(before.event.branches.size());
-    std::vector<ContactState> states = from.states;
-    if (parts) states = before.event.branches[static_cast<std::size_t>(before.event.taken) - 1].states;
+    PathPoint begin = from;
+    if (parts) {
+      const std::vector<ContactState>& states =
+          before.event.branches[static_cast<std::size_t>(before.event.taken) - 1].states;
+      for (std::size_t i = 0; i < states.size(); ++i) begin.modes[i].state = NumberOf(states[i]);
+    }
     // Increments by Ipopt do not say with which states they set out.
     if (!parts && before.kind == IncrementKind::kStart) {
       const Increment* const next = NextWithState(*increments, at);
       if (next == nullptr) return false;
-      states = model_.FromIncrement(*next).states;
+      TakeStates(model_.FromIncrement(*next).modes, &begin);
     }
-    arc_.SetStates(states, from);
+    arc_.SetModes(begin);
     CurvePoint start;
     if (!arc_.Derivatives(arc_.system().Pack(from), *towards, &start)) return false;
     const std::optional<PathPoint> point = PointAfter(start, from, wanted.arc_length - before.arc_length);
@@ -101,7 +105,7 @@ class Restorer {
   const Model& model_;
   const bool along_arc_;
   const LongLists lists_;
-  ContactArc arc_;
+  ModeArc arc_;
 };
 
 // mpec measures the direction and the bend of the path from the increment before.

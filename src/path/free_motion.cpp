@@ -25,7 +25,7 @@ constexpr std::size_t kMostNames = 5;      // listed
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 // A row of the equations: gradient . du = 0.
-void AddEquation(const PairDofs& dofs, const PairVector& gradient, int equation, Triplets* entries) {
+void AddEquation(const LawDofs& dofs, const LawVector& gradient, int equation, Triplets* entries) {
   for (std::size_t k = 0; k < dofs.size(); ++k)
     entries->emplace_back(dofs[k], equation, gradient[static_cast<Eigen::Index>(k)]);
 }
@@ -44,11 +44,11 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
     entries.emplace_back(prescribed.dof, equation++, 1.0);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
-    if (!(point.rn[static_cast<Eigen::Index>(i)] > force * pair.NormalForceUnit())) continue;
-    Kinematics kinematics;
-    pair.Evaluate(point.u, point.s, point.Patch(i), 0.0, &kinematics);
-    AddEquation(kinematics.dofs, kinematics.gap_gradient, equation++, &entries);
-    if (pair.Frictional()) AddEquation(kinematics.dofs, kinematics.xi_gradient, equation++, &entries);
+    if (!(NormalReaction(point, i) > force * pair.NormalForceUnit())) continue;
+    PortsAt ports;
+    pair.Evaluate(point.u, point.s, point.modes[i].piece, {}, &ports);
+    AddEquation(ports.dofs, ports[kNormal].gradient, equation++, &entries);
+    if (pair.Frictional()) AddEquation(ports.dofs, ports[kTangent].gradient, equation++, &entries);
   }
   Eigen::SparseMatrix<double> resistance(tangent.rows(), equation);
   resistance.setFromTriplets(entries.begin(), entries.end());
@@ -122,7 +122,7 @@ std::string NearestOpen(const Model& model, const PathPoint& point, const std::v
     }
     if (std::none_of(nodes.begin(), nodes.end(), [&](const std::string& node) { return Has(free_nodes, node); }))
       continue;
-    const double gap = model.contacts[i]->Gap(point.u, point.s, point.Patch(i));
+    const double gap = model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece);
     if (!(gap > tolerances::kActive)) return {};
     if (!(gap < least)) continue;
     least = gap;
@@ -145,7 +145,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactCandidate& contact = scene.contacts[i];
     if (!Has(names.nodes, contact.node) ||
-        model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActive)
+        model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece) > tolerances::kActive)
       continue;
     names.contacts.push_back(contact.Name());
     if (contact.OnSurface()) continue;

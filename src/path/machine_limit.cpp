@@ -77,18 +77,20 @@ bool MachineLimit::Note(const Place& place, StabilityRecord* record, std::option
 Eigen::VectorXd MachineLimit::Push(const PathPoint& point, const Eigen::VectorXd& along,
                                    const ActiveSetTolerance& tolerance) const {
   PathPoint released = point;
-  for (std::size_t i = 0; i < released.states.size(); ++i) {
-    const ContactPair& pair = *model_.contacts[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    ContactState& state = released.states[i];
-    if (state == ContactState::kOpen) continue;
-    const double cone = pair.Friction() * point.rn[k] - std::abs(point.rt[k]);
-    if (point.rn[k] <= tolerance.force * pair.NormalForceUnit())
-      state = ContactState::kOpen;
-    else if (state == ContactState::kStick && !pair.HasTotalLaw() && cone <= tolerance.force * pair.ForceUnit())
-      state = point.rt[k] < 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus;
+  for (std::size_t i = 0; i < released.modes.size(); ++i) {
+    const Law& law = model_.laws[i];
+    const Modes modes = model_.laws.ModesAt(point, i, tolerance);
+    int& state = released.modes[i].state;
+    if (law.In(state).idle) continue;
+    const auto idle = std::find_if(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).idle; });
+    const auto slides =
+        std::find_if(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).slides; });
+    if (idle != modes.end())
+      state = idle->state;
+    else if (!law.In(state).slides && !law.Holonomic() && slides != modes.end())
+      state = slides->state;
   }
-  StabilityProblem problem(model_.structure, model_.contacts);
+  StabilityProblem problem(model_.structure, model_.laws);
   problem.Set(released, {});
   const Stability found = problem.Under(machine().Compliance());
   if (found.verdict != Verdict::kUnstable || found.direction.size() == 0) return along;
@@ -98,7 +100,7 @@ Eigen::VectorXd MachineLimit::Push(const PathPoint& point, const Eigen::VectorXd
 MachineLimit::Outcome MachineLimit::TakeJump(const PathPoint& from, int number) {
   using Kind = Outcome::Kind;
   Leaving leaving = *std::exchange(leaving_, std::nullopt);
-  JumpResult jump = Jump(model_.structure, model_.contacts, from, leaving.push, machine(), landing_checks_, cancelled_);
+  JumpResult jump = Jump(model_.structure, model_.laws, from, leaving.push, machine(), landing_checks_, cancelled_);
   if (jump.cancelled) return {Kind::kEnds, {}, End{EndReason::kCancelled, {{sentences::kCancelled}}}};
   if (jump.came_back) {
     const bool again = std::exchange(came_back_, true);
@@ -116,7 +118,7 @@ MachineLimit::Outcome MachineLimit::TakeJump(const PathPoint& from, int number) 
   landing.point = std::move(jump.landing->point);
   landing.arc_length = Distance(from, landing.point);
   const double unit = model_.scaling.force * model_.scaling.length;
-  landing.work = {unit * jump.landing->friction, unit * jump.landing->loads};
+  landing.work = {unit * jump.landing->dissipated, unit * jump.landing->loads};
   landing.jump = {unit * jump.landing->energy_released(), jump.robust};
   // Coulomb's law holds on the way, and not between its ends.
   landing.residuals = model_.Check(landing.point, landing.point);

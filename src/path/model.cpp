@@ -15,12 +15,6 @@ std::size_t PositionIndex(const DofMap::Component& position) {
   return static_cast<std::size_t>(kPositionComponents * position.node + position.component);
 }
 
-// Where a contact touches that is on an end of its surface: by rounding, the foot may be past the end.
-int PatchOfTouching(const ContactPair& contact, int patch) {
-  if (contact.HasPatch(patch)) return patch;
-  return contact.HasPatch(patch + 1) ? patch + 1 : patch - 1;
-}
-
 double NumFree(const Model& model, int node) {
   double free = 0.0;
   for (const int axis : {0, 1}) free += model.structure.Dof(node, axis) >= 0 ? 1.0 : 0.0;
@@ -42,22 +36,15 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       structure(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length)),
       contacts(BuildContacts(scaled, index, structure,
                              CountedFrom(origin, configuration_in).Over(scaling.length).slip_origins)),
+      laws(LawsOf(contacts)),
       reactions(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length), scaling),
       check(scene_in, configuration_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {
   PathPoint point;
   point.u = structure.Start();
-  point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
-  point.rt = point.rn;
-  NotePatches(&point);
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto& contact = contacts[i];
-    const bool touches = contact->Gap(point.u, point.s, point.Patch(i)) <= tolerances::kTouching;
-    const ContactState rest = contact->Frictional() ? ContactState::kStick : ContactState::kClosed;
-    point.states.push_back(touches ? rest : ContactState::kOpen);
-    if (touches && contact->HasPatches()) point.patches[i] = PatchOfTouching(*contact, point.patches[i]);
-  }
+  point.forces = Eigen::VectorXd::Zero(laws.NumPorts());
+  for (std::size_t i = 0; i < laws.size(); ++i) point.modes.push_back(laws[i].Initial(point.u, point.s));
   return point;
 }
 
@@ -85,15 +72,9 @@ std::vector<double> Model::ComponentsOf(const Eigen::VectorXd& motion) const {
   return components;
 }
 
-void Model::NotePatches(PathPoint* point) const {
-  point->patches.clear();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (!contacts[i]->HasPatches()) continue;
-    point->patches.resize(contacts.size(), 0);
-    point->patches[i] = contacts[i]->PatchAt(point->u, point->s);
-    if (!point->states.empty() && point->states[i] != ContactState::kOpen)
-      point->patches[i] = PatchOfTouching(*contacts[i], point->patches[i]);
-  }
+void Model::NotePieces(PathPoint* point) const {
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    point->modes[i] = laws[i].InState(point->u, point->s, point->modes[i].state);
 }
 
 PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
@@ -103,7 +84,7 @@ PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
   const Eigen::VectorXd values = other.structure.AllValues(point.u);
   for (const DofMap::Component& to : structure.Dofs().Components())
     if (to.dof >= 0) taken.u[to.dof] = values[other.structure.Dofs().Index(to.node, to.field, to.component)];
-  NotePatches(&taken);  // an obstacle that has turned need not have them where they were
+  NotePieces(&taken);  // an obstacle that has turned need not have them where they were
   return taken;
 }
 
@@ -121,9 +102,9 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
       state.positions[PositionIndex(from)] =
           point.u[from.dof] * UnitOf(from.field, scaling.length) + origin[static_cast<std::size_t>(from.component)];
     }
-  for (Eigen::Index i = 0; i < point.rn.size(); ++i) {
-    state.rn.push_back(point.rn[i] * scaling.force);
-    state.rt.push_back(point.rt[i] * scaling.force);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    state.rn.push_back(NormalReaction(point, i) * scaling.force);
+    state.rt.push_back(TangentialReaction(point, i) * scaling.force);
   }
   return state;
 }
@@ -141,16 +122,13 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
       point.u[to.dof] = (increment.positions[PositionIndex(to)] - origin[static_cast<std::size_t>(to.component)]) /
                         UnitOf(to.field, scaling.length);
     }
-  const auto count = static_cast<Eigen::Index>(increment.contacts.size());
-  point.rn.resize(count);
-  point.rt.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const ContactRecord& contact = increment.contacts[static_cast<std::size_t>(i)];
-    point.rn[i] = contact.rn / scaling.force;
-    point.rt[i] = contact.rt / scaling.force;
-    point.states.push_back(contact.state);
+  point.forces = Eigen::VectorXd::Zero(laws.NumPorts());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactRecord& contact = increment.contacts[i];
+    SetReaction(i, contact.rn / scaling.force, contact.rt / scaling.force, &point);
+    point.modes.push_back({NumberOf(contact.state), 0});
   }
-  NotePatches(&point);
+  NotePieces(&point);
   return point;
 }
 

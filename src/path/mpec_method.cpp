@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/equations/nearest_point.h"
 #include "contact_path/path/model.h"
 #include "contact_path/tolerances.h"
@@ -37,12 +37,11 @@ constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
 bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
-  const auto k = static_cast<Eigen::Index>(i);
-  const bool open = point.states[i] == ContactState::kOpen;
+  const bool open = StateOf(point, i) == ContactState::kOpen;
   const double unit = contact.ForceUnit();
-  if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kTouching) return true;
-  return point.states[i] == ContactState::kStick &&
-         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kTouching * unit;
+  if ((open ? contact.Gap(point.u, point.s, point.modes[i].piece) : NormalReaction(point, i) / unit) <= tolerances::kTouching) return true;
+  return StateOf(point, i) == ContactState::kStick &&
+         contact.Friction() * NormalReaction(point, i) - std::abs(TangentialReaction(point, i)) <= tolerances::kTouching * unit;
 }
 
 bool SomeNearlyActive(const ContactPairs& contacts, const PathPoint& point) {
@@ -54,7 +53,7 @@ bool SomeNearlyActive(const ContactPairs& contacts, const PathPoint& point) {
 // Whether a contact has another state than before, or has come to where it may change: the increment may have cut a
 // corner. A contact that slides on without a reaction, say, has lost it somewhere on the way.
 bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
-  if (to.states != from.states) return true;
+  if (!SameStates(to.modes, from.modes)) return true;
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (IsNearlyActive(*contacts[i], to, i) && !IsNearlyActive(*contacts[i], from, i)) return true;
   return false;
@@ -62,21 +61,20 @@ bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const
 
 // Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
 // characteristic force, and then small residuals prove nothing.
-bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
-  const double largest = std::max(std::abs(to.s), LargestReaction(contacts, to));
+bool StatesAgree(const ContactPairs& contacts, const Laws& laws, const PathPoint& from, const PathPoint& to) {
+  const double largest = std::max(std::abs(to.s), laws.LargestForce(to));
   const double length = kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
     const double force = kRegularisedState * largest * contacts[i]->ForceUnit();
-    const double slip = contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i));
-    const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
-    const ContactState state = to.states[i];
+    const double slip = contacts[i]->Travel(kTangent, from.u, from.s, from.modes[i].piece, to.u - from.u, to.s - from.s, to.modes[i].piece);
+    const double margin = contacts[i]->Friction() * NormalReaction(to, i) - std::abs(TangentialReaction(to, i));
+    const ContactState state = StateOf(to, i);
     if (state == ContactState::kOpen) {
       // Friction above 1 makes a force of a normal reaction that is none.
-      if (std::max(to.rn[k], std::abs(to.rt[k])) > std::min(force, tolerances::kAcceptedRegularised)) return false;
+      if (std::max(NormalReaction(to, i), std::abs(TangentialReaction(to, i))) > std::min(force, tolerances::kAcceptedRegularised)) return false;
       continue;
     }
-    if (contacts[i]->Gap(to.u, to.s, to.Patch(i)) > length) return false;
+    if (contacts[i]->Gap(to.u, to.s, to.modes[i].piece) > length) return false;
     if (state == ContactState::kStick && std::abs(slip) > length) return false;
     if (Slips(state) && margin > force) return false;
   }
@@ -113,7 +111,7 @@ MpecMethod::MpecMethod(const Model& model, const MpecOptions& options, std::func
       options_(options),
       cancelled_(std::move(cancelled)),
       ipopt_(cancelled_),
-      solver_(model.structure, model.contacts, &ipopt_),
+      solver_(model.structure, model.contacts, model.laws, &ipopt_),
       step_length_(options.step) {
   direction_ = Eigen::VectorXd::Zero(model.structure.NumDofs() + 1);
   direction_[model.structure.NumDofs()] = options.direction;
@@ -137,7 +135,7 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
 }
 
 bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
-  return started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
+  return started_ && !bent_ && SameStates(to.modes, from.modes) && Direction(from, to).dot(direction) < kSmallestCosine &&
          !SomeNearlyActive(model_.contacts, from);
 }
 
@@ -145,7 +143,7 @@ bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eig
 // and the solver may find either. The second one dissipates nothing.
 bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
   const auto slides = [](const PathPoint& point) {
-    return std::any_of(point.states.begin(), point.states.end(), Slips);
+    return std::any_of(point.modes.begin(), point.modes.end(), [](const Mode& mode) { return Slips(StateOf(mode)); });
   };
   return started_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 && slides(from) && !slides(to);
 }
@@ -162,7 +160,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   const double moved = Distance(from, to);
   if (!(trial.residuals.Largest() <= tolerance))
     trial.verdict = sentences::kResidual;
-  else if (!trial.increment.exact && !StatesAgree(model_.contacts, from, to))
+  else if (!trial.increment.exact && !StatesAgree(model_.contacts, model_.laws, from, to))
     trial.verdict = sentences::kContradiction;
   else if (moved > IncrementSolver::kLongestIncrement * length)
     trial.verdict = sentences::kTooLong;
@@ -230,15 +228,15 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
 
 bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
-  FixedStateSystem system(model_.structure, model_.contacts);
-  system.SetStates(modes.states, SlipReferences(model_.contacts, from), modes.patches);
+  FixedModeSystem system(model_.structure, model_.laws);
+  system.SetModes(modes.modes, model_.laws.ReferencesAt(from));
   system.FixLoadFactor(*options_.target);
   const double share = (*options_.target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
-  for (const Constraint& constraint : system.Inequalities())
-    if (system.Value(constraint, nearest.x) < -tolerances::kResidual * system.UnitOf(constraint)) return false;
+  for (const Limit& limit : system.Limits())
+    if (system.Value(limit, nearest.x) < -tolerances::kResidual * system.UnitOf(limit)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);
@@ -251,7 +249,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Tria
 std::optional<int> MpecMethod::EndAtReturn(const PathPoint& from, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
   // Between two states the increment is no arc, and a regularised one is not exact enough.
-  if (options_.returns == nullptr || !trial->increment.exact || to.states != from.states) return std::nullopt;
+  if (options_.returns == nullptr || !trial->increment.exact || !SameStates(to.modes, from.modes)) return std::nullopt;
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, to);
   if (!found) return std::nullopt;
   const Residuals residuals = model_.Check(from, found->point);
@@ -265,7 +263,7 @@ bool MpecMethod::Resume(const ResumePoint& at) {
   if (!(at.solve.next_step > 0.0) || !(Distance(at.before, at.point) > 0.0)) return false;
   direction_ = onward_ = Direction(at.before, at.point);
   last_length_ = Distance(at.before, at.point);
-  bent_ = at.before.states != at.point.states;
+  bent_ = !SameStates(at.before.modes, at.point.modes);
   step_length_ = at.solve.next_step;
   gamma2_factor_ = at.solve.gamma2_factor;
   length_ = std::numeric_limits<double>::infinity();  // not known, and not short
@@ -317,7 +315,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
 
     const std::optional<int> returned = EndAtReturn(from, &trial);
     AcceptedPoint increment;
-    const bool changed = started_ && to.states != from.states;
+    const bool changed = started_ && !SameStates(to.modes, from.modes);
     const Eigen::VectorXd direction = Direction(from, to);
     const Eigen::Index s = direction.size() - 1;
     if (started_ && direction[s] * direction_[s] < 0.0 &&

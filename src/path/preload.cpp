@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/free_motion.h"

@@ -17,15 +17,15 @@ constexpr std::size_t kMostReferences = 32;
 
 ReturnDetector::ReturnDetector(const Model& model, int every, const LargestReactionSoFar& largest_reaction)
     : spacing_(every),
-      arc_(model.structure, model.contacts),
-      contacts_(model.contacts),
+      arc_(model.structure, model.laws),
+      laws_(model.laws),
       largest_reaction_(largest_reaction) {}
 
 void ReturnDetector::Add(int increment, const PathPoint& from, const PathPoint& to) {
   if (!first_) first_ = from;
   extent_ = std::max(extent_, Distance(*first_, to));
   const double length = Distance(from, to);
-  if (increment % spacing_ != 0 || !(length > 0.0) || to.states != from.states) return;
+  if (increment % spacing_ != 0 || !(length > 0.0) || !SameStates(to.modes, from.modes)) return;
   if (references_.size() == kMostReferences) {
     spacing_ *= 2;
     const auto between = [&](const Reference& reference) { return reference.increment % spacing_ != 0; };
@@ -39,7 +39,7 @@ std::optional<ReturnDetector::Return> ReturnDetector::Find(const PathPoint& from
   const double reach = kReach * Distance(from, to);
   for (const Reference& reference : references_) {
     const PathPoint& point = reference.point;
-    if (std::abs(point.s - to.s) > reach || point.states != to.states || Distance(point, to) > reach) continue;
+    if (std::abs(point.s - to.s) > reach || !SameStates(point.modes, to.modes) || Distance(point, to) > reach) continue;
     std::optional<PathPoint> crossing = CrossingOf(reference, from, to);
     if (!crossing || !IsSame(*crossing, point)) continue;
     const Eigen::VectorXd now = TangentAt(*crossing, Chord(from, to));
@@ -56,8 +56,10 @@ std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, 
   const double beyond = reference.direction.dot(Chord(reference.point, to));
   const double slack = tolerances::kSamePoint * Distance(from, to);
   if (!(before < -slack) || !(beyond >= -slack)) return std::nullopt;
-  arc_.SetStates(to.states, from);
-  const FixedStateSystem& system = arc_.system();
+  PathPoint begin = from;
+  TakeStates(to.modes, &begin);
+  arc_.SetModes(begin);
+  const FixedModeSystem& system = arc_.system();
   const double share = std::min(1.0, before / (before - beyond));
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system.NumUnknowns());
   row.head(arc_.NumMotion()) = reference.direction;
@@ -74,14 +76,13 @@ std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, 
 bool ReturnDetector::IsSame(const PathPoint& a, const PathPoint& b) const {
   if (!(Distance(a, b) <= tolerances::kSamePoint * extent_)) return false;
   PathPoint difference;
-  difference.rn = a.rn - b.rn;
-  difference.rt = a.rt - b.rt;
-  return LargestReaction(contacts_, difference) <=
+  difference.forces = a.forces - b.forces;
+  return laws_.LargestForce(difference) <=
          tolerances::kUnitComponent + tolerances::kSamePoint * largest_reaction_.of_stage;
 }
 
 Eigen::VectorXd ReturnDetector::TangentAt(const PathPoint& point, const Eigen::VectorXd& towards) {
-  arc_.SetStates(point.states, point);
+  arc_.SetModes(point);
   CurvePoint derivatives;
   if (!arc_.Derivatives(arc_.system().Pack(point), towards, &derivatives)) return {};
   return derivatives.first.head(arc_.NumMotion());

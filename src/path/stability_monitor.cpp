@@ -40,7 +40,7 @@ void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const 
   // Where supports or obstacles move besides, f . u does not tell the work along the path.
   const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
                            (model_.structure.PrescribedDofs().empty() && model_.scene.obstacle_motions.empty());
-  if (falls && known_ && loads_alone && null_directions.cols() == 0 && problem_.IsSymmetric(point))
+  if (falls && known_ && loads_alone && null_directions.cols() == 0 && problem_.IsSymmetric(point.modes))
     Follow(at, static_cast<int>(*falls));
   else
     Count(point, null_directions);

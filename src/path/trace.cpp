@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/linear/blas.h"
 #include "contact_path/linear/linear_solver_error.h"
 #include "contact_path/path/branch_method.h"
@@ -177,7 +177,7 @@ class Tracer {
     if (options.method == Method::kMpec) return control_.mpec({model, options, target, &*returns_, control_});
     BranchOptions branch = BranchOptions::For(options, AutomaticStepGrowth(model));
     branch.load_factor = target;
-    branch.watch = [this, &model](const FixedStateSystem& system) {
+    branch.watch = [this, &model](const FixedModeSystem& system) {
       return WatchedQuantities(model, request_, stage_, *setting_, system);
     };
     branch.increments = increment;
@@ -245,7 +245,7 @@ class Tracer {
       if (increment.positions.empty()) continue;
       PathPoint point = model.FromIncrement(increment);
       if (increment.stage != resumption.from->stage) {
-        largest_reaction_.of_trace = std::max(largest_reaction_.of_trace, LargestReaction(model.contacts, point));
+        largest_reaction_.of_trace = std::max(largest_reaction_.of_trace, model.laws.LargestForce(point));
         continue;
       }
       NotePoint(point);
@@ -256,7 +256,7 @@ class Tracer {
 
   void NotePoint(const PathPoint& point) {
     largest_load_ = std::max(largest_load_, std::abs(point.s));
-    largest_reaction_.Note(model_->contacts, point);
+    largest_reaction_.Note(model_->laws, point);
   }
 
   bool FollowStage(const Model& model, std::size_t stage, std::unique_ptr<PathMethod> method) {
@@ -275,9 +275,9 @@ class Tracer {
   // Why no further increment is of use, from `before` to the last one: no contact is left, and the load moves away from
   // its target, or nothing holds the structure. Nothing: it may be; a stop criterion may yet be met.
   std::optional<Cause> Escape(const Model& model, std::optional<double> target, const PathPoint& before) const {
-    const auto is_open = [](ContactState state) { return state == ContactState::kOpen; };
+    const auto is_open = [](const Mode& mode) { return StateOf(mode) == ContactState::kOpen; };
     const bool opened =
-        largest_reaction_.of_trace > 0.0 && std::all_of(point_.states.begin(), point_.states.end(), is_open);
+        largest_reaction_.of_trace > 0.0 && std::all_of(point_.modes.begin(), point_.modes.begin() + static_cast<std::ptrdiff_t>(model.contacts.size()), is_open);
     if (!opened || !request_.options.stop.empty()) return std::nullopt;
     // The load of a structure that snaps may come back.
     const bool away = target && point_.s * *target < 0.0 && std::abs(point_.s) > std::abs(*target) &&

@@ -27,16 +27,16 @@ int UnknownOf(const Model& model, const Quantity& quantity) {
                                     component);
 }
 
-Function OfContact(const Model& model, const Quantity& quantity, const FixedStateSystem& system) {
+Function OfContact(const Model& model, const Quantity& quantity, const FixedModeSystem& system) {
   const std::size_t i = quantity.part;
   if (quantity.kind != Quantity::Kind::kGap)
     return [i, &system, normal = quantity.kind == Quantity::Kind::kRn](const Eigen::VectorXd& x) {
       const PathPoint point = system.Unpack(x);
-      return (normal ? point.rn : point.rt)[static_cast<Eigen::Index>(i)];
+      return normal ? NormalReaction(point, i) : TangentialReaction(point, i);
     };
   return [i, &system, &contact = *model.contacts[i]](const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
-    return contact.Gap(point.u, point.s, contact.KnownPatch(point.u, point.s, point.Patch(i)));
+    return contact.Gap(point.u, point.s, contact.KnownPatch(point.u, point.s, point.modes[i].piece));
   };
 }
 
@@ -51,7 +51,7 @@ Function OfObstacle(const Model& model, const Quantity& quantity, double unit, c
   };
 }
 
-Function OfResponse(const Model& model, const Quantity& quantity, double unit, const FixedStateSystem& system) {
+Function OfResponse(const Model& model, const Quantity& quantity, double unit, const FixedModeSystem& system) {
   return [&model, &system, quantity, unit](const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
     Increment increment;
@@ -91,7 +91,7 @@ double ErrorOf(const Model& model, const Quantity& quantity, double largest) {
 
 // sense, criterion: as of ArcTarget.
 void Add(const Model& model, const TraceRequest& request, std::size_t stage, const MachineSetting& setting,
-         const FixedStateSystem& system, const std::string& text, const std::vector<double>& values, double sense,
+         const FixedModeSystem& system, const std::string& text, const std::vector<double>& values, double sense,
          int criterion, ArcTargets* targets) {
   const Quantity quantity = FindQuantity(text, model.index).value();
   const Scaling& scaling = model.scaling;
@@ -129,7 +129,7 @@ void Add(const Model& model, const TraceRequest& request, std::size_t stage, con
 }  // namespace
 
 ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage,
-                             const MachineSetting& setting, const FixedStateSystem& system) {
+                             const MachineSetting& setting, const FixedModeSystem& system) {
   ArcTargets targets;
   for (std::size_t i = 0; i < request.options.stop.size(); ++i) {
     const StopCriterion& criterion = request.options.stop[i];

@@ -10,11 +10,12 @@ namespace contact_path {
 namespace {
 
 double DrivingForce(const Model& model, const PathPoint& point) {
-  // With both reactions of each contact among the unknowns, whatever its state: those of a regularised point are not
-  // zero where it is open.
-  FixedStateSystem system(model.structure, model.contacts);
-  system.SetStates(std::vector<ContactState>(model.contacts.size(), ContactState::kStick),
-                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.contacts.size())), point.patches);
+  // With all forces of each law among the unknowns, whatever its state: those of a regularised point are not zero where
+  // it is idle.
+  FixedModeSystem system(model.structure, model.laws);
+  Modes held = point.modes;
+  for (std::size_t i = 0; i < held.size(); ++i) held[i].state = model.laws[i].AllHeld();
+  system.SetModes(held);
   const Eigen::VectorXd x = system.Pack(point), still = Eigen::VectorXd::Zero(x.size());
   return system.DrivingForceAlong(x, still, still).value;
 }
@@ -24,15 +25,21 @@ double DrivingForce(const Model& model, const PathPoint& point) {
 Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint& to) {
   const Eigen::VectorXd du = to.u - from.u;
   Work work;
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const ContactPair& pair = *model.contacts[i];
-    if (!Slips(to.states[i]) && !pair.HasTotalLaw()) continue;
-    const auto k = static_cast<Eigen::Index>(i);
-    const double slip = pair.Slip(from.u, from.s, from.Patch(i), du, to.s - from.s, to.Patch(i));
-    if (pair.HasTotalLaw())
-      work.friction -= 0.5 * (from.rt[k] + to.rt[k]) * slip;
-    else
-      work.friction += pair.Friction() * (0.5 * (from.rn[k] + to.rn[k])) * std::abs(slip);
+  for (std::size_t i = 0; i < model.laws.size(); ++i) {
+    const Law& law = model.laws[i];
+    const StateRule& state = law.In(to.modes[i]);
+    const Eigen::Index leading = model.laws.FirstPort(i);
+    for (std::size_t p = 1; p < law.NumPorts(); ++p) {
+      if (!state.ports[p].Follows() && !law.Holonomic()) continue;
+      const Eigen::Index port = leading + static_cast<Eigen::Index>(p);
+      const double travel =
+          law.Travel(p, from.u, from.s, from.modes[i].piece, du, to.s - from.s, to.modes[i].piece);
+      if (law.Holonomic())
+        work.friction -= 0.5 * (from.forces[port] + to.forces[port]) * travel;
+      else
+        work.friction += std::abs(state.ports[p].ratio) * (0.5 * (from.forces[leading] + to.forces[leading])) *
+                         std::abs(travel);
+    }
   }
   const Structure& structure = model.structure;
   work.loads = 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du) +
@@ -43,7 +50,7 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
   return work;
 }
 
-Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& step) {
+Work WorkOfStep(const Model& model, const FixedModeSystem& system, const Step& step) {
   // Five points are exact for the products of a quintic and the derivative of another.
   const auto integrate = [&](const Quintic& force, const Quintic& position) {
     const Quintic rate = Derivative(position);
@@ -56,16 +63,17 @@ Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& 
   };
   const Eigen::Index nd = system.NumDofs();
   Work work;
-  for (const std::size_t i : system.Touching()) {
-    if (!Slips(system.states()[i])) continue;
-    const Quintic force =
-        step.Interpolate([&](const CurvePoint& at) { return system.SlidingForceAlong(i, at.x, at.first, at.second); });
-    const Quintic slip = step.Interpolate([&](const CurvePoint& at) {
-      return system.ValueAlong({static_cast<int>(i), Inequality::kSlip}, at.x, at.first, at.second);
-    });
-    const ContactPair& pair = *model.contacts[i];
-    const double friction = pair.Friction() * integrate(force, slip);
-    work.friction += pair.HasTotalLaw() ? friction : std::max(0.0, friction);
+  for (const std::size_t i : system.Acting()) {
+    const StateRule& state = model.laws[i].In(system.modes()[i]);
+    for (std::size_t p = 1; state.slides && p < model.laws[i].NumPorts(); ++p) {
+      if (!state.ports[p].Follows()) continue;
+      const Quintic force = step.Interpolate(
+          [&](const CurvePoint& at) { return system.LeadingForceAlong(i, p, at.x, at.first, at.second); });
+      const Quintic motion =
+          step.Interpolate([&](const CurvePoint& at) { return system.MotionAlong(i, p, at.x, at.first, at.second); });
+      const double taken = -state.ports[p].ratio * integrate(force, motion);
+      work.friction += model.laws[i].Holonomic() ? taken : std::max(0.0, taken);
+    }
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
   const auto along = [&](const Eigen::VectorXd& x) { return model.structure.ReferenceLoad().dot(x.head(nd)); };

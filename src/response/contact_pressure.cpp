@@ -82,11 +82,10 @@ Pressures PressureProblem::At(const Eigen::VectorXd& values, const PathPoint& po
   }
   for (std::size_t i = 0; i < boundary_of_.size(); ++i) {
     ContactPressure& of = pressures.contacts[i];
-    const auto k = static_cast<Eigen::Index>(i);
     if (!(of.length > 0.0)) continue;
-    of.pressure = scaling_.force * point.rn[k] / of.length;
-    of.traction = scaling_.force * point.rt[k] / of.length;
-    if (point.states[i] != ContactState::kOpen) pressures.widths[boundary_of_[i]] += of.length;
+    of.pressure = scaling_.force * NormalReaction(point, i) / of.length;
+    of.traction = scaling_.force * TangentialReaction(point, i) / of.length;
+    if (StateOf(point, i) != ContactState::kOpen) pressures.widths[boundary_of_[i]] += of.length;
   }
   return pressures;
 }

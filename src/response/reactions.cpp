@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 
-#include "contact_path/contact/kinematics.h"
+#include "contact_path/law/ports.h"
 #include "contact_path/contact/scene_contacts.h"
 
 namespace contact_path {
@@ -58,17 +58,16 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
   Eigen::VectorXd missing(released_.NumDofs());  // phi - s f - f_constant - T r
   released_.InternalForce(values, missing);
   missing -= point.s * released_.ReferenceLoad() + released_.ConstantLoad();
-  Kinematics at;
+  PortsAt at;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const double rn = point.rn[k], rt = point.rt[k];
+    const double rn = NormalReaction(point, i), rt = TangentialReaction(point, i);
     if (rn == 0.0 && rt == 0.0) continue;
-    contacts_[i]->Evaluate(values, point.s, point.Patch(i), 0.0, &at);
+    contacts_[i]->Evaluate(values, point.s, point.modes[i].piece, {}, &at);
     const auto number = static_cast<int>(nodes_[i]);
     Eigen::Vector2d on_node = Eigen::Vector2d::Zero();
     for (std::size_t j = 0; j < at.dofs.size(); ++j) {
       const auto entry = static_cast<Eigen::Index>(j);
-      const double force = rn * at.gap_gradient[entry] + rt * at.slip_factor * at.xi_gradient[entry];
+      const double force = rn * at[kNormal].gradient[entry] + rt * at[kTangent].factor * at[kTangent].gradient[entry];
       missing[at.dofs[j]] -= force;
       for (const int axis : {0, 1})
         if (at.dofs[j] == released_.Dof(number, axis)) on_node[axis] = force;

@@ -39,13 +39,13 @@ std::size_t LoadsOfAllStages(const contact_path_msgs::Scene& scene,
   return all;
 }
 
-struct Limit {
+struct Bound {
   const char* name;
   int value;
 };
 
 // A line if `value` exceeds the limit.
-std::string Exceeded(const std::string& what, std::size_t value, const Limit& limit) {
+std::string Exceeded(const std::string& what, std::size_t value, const Bound& limit) {
   if (value <= static_cast<std::size_t>(limit.value)) return {};
   return what + ": " + std::to_string(value) + ", but the node admits " + std::to_string(limit.value) + " (~" +
          limit.name + ")";
@@ -53,7 +53,7 @@ std::string Exceeded(const std::string& what, std::size_t value, const Limit& li
 
 // The limit for a list of parts of the core.
 template <typename Part>
-Limit LimitOf(const TraceLimits& limits) {
+Bound LimitOf(const TraceLimits& limits) {
   if constexpr (std::is_same_v<Part, Node>) return {names::kMaxNodes, limits.max_nodes};
   if constexpr (std::is_same_v<Part, Obstacle> || std::is_same_v<Part, ObstacleMotion> ||
                 std::is_same_v<Part, ContactCandidate>)
@@ -152,9 +152,9 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
   for (const contact_path_msgs::Stage& stage : program) bytes += ros::serialization::serializationLength(stage);
   if (bytes > kMostBytes)
     return "the request has " + std::to_string(bytes) + " bytes, but the node admits " + std::to_string(kMostBytes);
-  const Limit elements{names::kMaxElements, limits.max_elements}, contacts{names::kMaxContacts, limits.max_contacts};
+  const Bound elements{names::kMaxElements, limits.max_elements}, contacts{names::kMaxContacts, limits.max_contacts};
   std::string exceeded = ExceededByScene(scene, limits);
-  const auto check = [&](const char* name, std::size_t value, const Limit& limit) {
+  const auto check = [&](const char* name, std::size_t value, const Bound& limit) {
     if (exceeded.empty()) exceeded = Exceeded(name, value, limit);
   };
   check("loads and motions of program", ProgramEntries(program), elements);

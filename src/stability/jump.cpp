@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/iterations.h"
 #include "contact_path/linear/generic_vector.h"
 #include "contact_path/stability/stability_problem.h"
@@ -19,7 +19,7 @@ namespace {
 
 // Largest motion of a step, of the extent of the structure and of the way from the start.
 constexpr double kStride = 0.01;
-// Steps on the way of a jump, at least. Half as long steps change the work of friction by less than 1e-3 of itself: by
+// Steps on the way of a jump, at least. Half as long steps change the work of what slides by less than 1e-3 of itself: by
 // up to 5e-4 in scenes/snap_hook.yaml, by 6e-5 in scenes/stick_slip_chain.yaml, by 2e-5 in scenes/rough_arch.yaml.
 constexpr double kLeastSteps = 200.0;
 // The same with inertia: a swing goes along the way once forth and back, and implicit Euler damps a swing of n steps
@@ -53,9 +53,9 @@ double ExtentOf(const Structure& structure, const Eigen::VectorXd& u) {
 }
 
 // Of the equations of motion at a point, with the curvature of what is touched.
-Eigen::VectorXd DiagonalStiffness(const Structure& structure, const ContactPairs& contacts, const PathPoint& at) {
-  FixedStateSystem system(structure, contacts);
-  system.SetStates(at.states, SlipReferences(contacts, at), at.patches);
+Eigen::VectorXd DiagonalStiffness(const Structure& structure, const Laws& laws, const PathPoint& at) {
+  FixedModeSystem system(structure, laws);
+  system.SetModes(at.modes, laws.ReferencesAt(at));
   const Eigen::SparseMatrix<double>& jacobian = system.TransposedJacobian(system.Pack(at));
   return Eigen::VectorXd(jacobian.diagonal()).head(structure.NumDofs()).cwiseAbs();
 }
@@ -110,19 +110,19 @@ struct Course {
 
 class Jumper {
  public:
-  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, const Machine& machine,
+  Jumper(const Structure& structure, const Laws& laws, const PathPoint& from, const Machine& machine,
          const std::function<bool()>& cancelled)
       : structure_(structure),
-        contacts_(contacts),
+        laws_(laws),
         compliance_(machine.Compliance()),
         machine_(MachineEquation::Of(structure, machine, from)),
-        solver_(structure, contacts, machine_),
-        arc_(structure, contacts),
-        stability_(structure, contacts),
-        work_(structure, contacts),
-        start_(solver_.WithPatches(from)),
+        solver_(structure, laws, machine_),
+        arc_(structure, laws),
+        stability_(structure, laws),
+        work_(structure, laws),
+        start_(solver_.AsOfArc(from)),
         extent_(ExtentOf(structure, from.u)),
-        diagonal_(DiagonalStiffness(structure, contacts, start_)),
+        diagonal_(DiagonalStiffness(structure, laws, start_)),
         moved_(Eigen::VectorXd::Ones(from.u.size())),
         cancelled_(cancelled) {
     for (const PrescribedDof& prescribed : structure.PrescribedDofs()) moved_[prescribed.dof] = 0.0;
@@ -149,7 +149,7 @@ class Jumper {
  private:
   // From the start to where the structure is stable: from where it is not it moves on.
   Course Follow(const Resistance& resistance, const Eigen::VectorXd& push, double stride) {
-    Course course{start_, Work(contacts_.size()), std::nullopt};
+    Course course{start_, Work(laws_), std::nullopt};
     Stability at = StabilityOf(start_);
     std::vector<Eigen::VectorXd> directions = {push};
     if (at.verdict != Verdict::kStable)
@@ -360,9 +360,9 @@ class Jumper {
     const std::optional<MotionStep> step = solver_.Solve(at, 0.0 * moved_, at.u);
     if (!step || step->changed || Largest(step->point.u - at.u) > near) return;
     PathPoint from = at;
-    from.patches = step->point.patches;
-    arc_.SetStates(step->point.states, from);
-    const FixedStateSystem& system = arc_.system();
+    from.modes = step->point.modes;
+    arc_.SetModes(from);
+    const FixedModeSystem& system = arc_.system();
     const Correction correction =
         arc_.Correct(system.Pack(step->point), machine_.Row(system.NumUnknowns()), machine_.value);
     if (!correction.converged || !InequalitiesHold(correction.x)) return;
@@ -374,13 +374,13 @@ class Jumper {
     landing.point = last.point;
     landing.loads = course->work.loads;
     landing.stored = structure_.Energy(last.point.u) - structure_.Energy(start_.u);
-    // Drag takes energy: what friction is found to take beyond the rest is the error of its integral, and small.
-    const double left = landing.loads - landing.stored, friction = course->work.friction;
-    if (friction - left >
-        tolerances::kEnergyOfStep * (std::abs(landing.loads) + std::abs(landing.stored) + std::abs(friction)) +
+    // Drag takes energy: what slides is found to take beyond the rest is the error of its integral, and small.
+    const double left = landing.loads - landing.stored, taken = course->work.dissipation;
+    if (taken - left >
+        tolerances::kEnergyOfStep * (std::abs(landing.loads) + std::abs(landing.stored) + std::abs(taken)) +
             tolerances::kEqual * (1.0 + structure_.Energy(start_.u)))
       return;
-    landing.friction = std::min(friction, std::max(0.0, left));
+    landing.dissipated = std::min(taken, std::max(0.0, left));
     course->landing = landing;
   }
 
@@ -388,27 +388,27 @@ class Jumper {
   // which the same drag drives the structure has the same sign; where it has the other one it is so long that growth is
   // taken for decay.
   int SignOfDrag(const PathPoint& point) {
-    if (point.states != states_of_sign_) {
-      const double largest = std::max(1.0, DiagonalStiffness(structure_, contacts_, point).maxCoeff());
+    if (!SameStates(point.modes, modes_of_sign_)) {
+      const double largest = std::max(1.0, DiagonalStiffness(structure_, laws_, point).maxCoeff());
       sign_ = solver_.DeterminantSign(point, largest / tolerances::kSmallShare * moved_);
-      states_of_sign_ = point.states;
+      modes_of_sign_ = point.modes;
     }
     return sign_;
   }
 
   bool InequalitiesHold(const Eigen::VectorXd& x) const {
-    const std::vector<Constraint> inequalities = arc_.system().Inequalities();
-    return std::all_of(inequalities.begin(), inequalities.end(), [&](const Constraint& constraint) {
+    const std::vector<Limit> inequalities = arc_.system().Limits();
+    return std::all_of(inequalities.begin(), inequalities.end(), [&](const Limit& constraint) {
       return arc_.system().Value(constraint, x) >= -std::max(arc_.RoundingOf(constraint), tolerances::kActive);
     });
   }
 
   const Structure& structure_;
-  const ContactPairs& contacts_;
+  const Laws& laws_;
   const double compliance_;  // of the machine
   const MachineEquation machine_;
   MotionStepSolver solver_;
-  ContactArc arc_;
+  ModeArc arc_;
   StabilityProblem stability_;
   WorkOfMotion work_;
   const PathPoint start_;
@@ -417,16 +417,16 @@ class Jumper {
   Eigen::VectorXd moved_;           // 1, and 0 for components of supports
   const std::function<bool()>& cancelled_;
   double stride_ = 0.0;
-  std::vector<ContactState> states_of_sign_;  // for which sign_ is known
+  Modes modes_of_sign_;  // for the states of which sign_ is known
   int sign_ = 0;
 };
 
 }  // namespace
 
-JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
+JumpResult Jump(const Structure& structure, const Laws& laws, const PathPoint& from,
                 const Eigen::VectorXd& push, const Machine& machine, bool checked,
                 const std::function<bool()>& cancelled) {
-  return Jumper(structure, contacts, from, machine, cancelled).Run(push, checked);
+  return Jumper(structure, laws, from, machine, cancelled).Run(push, checked);
 }
 
 }  // namespace contact_path

@@ -6,35 +6,51 @@
 
 namespace contact_path {
 
+namespace {
+
+// |force| of the port p per force of port 0 where it slides; 0: it does not, in any state.
+double RatioOf(const Law& law, std::size_t p) {
+  double largest = 0.0;
+  for (int state = 0; state < law.NumStates(); ++state)
+    if (const PortRule& port = law.In(state).ports[p]; port.Follows()) largest = std::max(largest, std::abs(port.ratio));
+  return largest;
+}
+
+}  // namespace
+
 void WorkOfMotion::Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work) const {
-  bool impact = pushed;
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    impact =
-        impact || step.closed_after[i] != 0.0 ||
-        (from.states[i] != ContactState::kOpen && !contacts_[i]->Seamless() && from.Patch(i) != step.point.Patch(i));
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (contacts_[i]->Frictional()) work->friction += OfContact(i, from, step, impact, work);
-  work->after_impact = impact;
   const PathPoint& to = step.point;
+  bool impact = pushed;
+  for (std::size_t i = 0; i < laws_.size(); ++i)
+    impact = impact || step.acts_after[i] != 0.0 ||
+             (!laws_[i].In(from.modes[i]).idle && laws_[i].ChangesPiece(from.modes[i].piece, to.modes[i].piece));
+  for (std::size_t i = 0; i < laws_.size(); ++i)
+    for (std::size_t p = 1; p < laws_[i].NumPorts(); ++p)
+      if (laws_[i].LargestRatio() > 0.0) work->dissipation += OfPort(i, p, from, step, impact, work);
+  work->after_impact = impact;
   const Eigen::VectorXd du = to.u - from.u;
   work->loads += 0.5 * (from.s + to.s) * structure_.ReferenceLoad().dot(du) + structure_.ConstantLoad().dot(du);
 }
 
-double WorkOfMotion::OfContact(std::size_t i, const PathPoint& from, const MotionStep& step, bool impact,
-                               Work* work) const {
-  const ContactPair& pair = *contacts_[i];
+double WorkOfMotion::OfPort(std::size_t i, std::size_t p, const PathPoint& from, const MotionStep& step, bool impact,
+                            Work* work) const {
+  const Law& law = laws_[i];
   const PathPoint& to = step.point;
-  const auto k = static_cast<Eigen::Index>(i);
-  const auto slip = [&] { return pair.Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i)); };
-  if (pair.HasTotalLaw()) return -0.5 * (from.rt[k] + to.rt[k]) * slip();
-  const bool known = from.states[i] != ContactState::kOpen && !work->after_impact;  // the force at the start
-  Work::Slide& slide = work->slides[i];
+  const Eigen::Index leads = laws_.FirstPort(i), follows = leads + static_cast<Eigen::Index>(p);
+  const StateRule &was = law.In(from.modes[i]), &is = law.In(to.modes[i]);
+  const double ratio = RatioOf(law, p);
+  const auto travel = [&] {
+    return law.Travel(p, from.u, from.s, from.modes[i].piece, to.u - from.u, to.s - from.s, to.modes[i].piece);
+  };
+  if (law.Holonomic()) return -0.5 * (from.forces[follows] + to.forces[follows]) * travel();
+  const bool known = !was.idle && !work->after_impact;  // the force at the start
+  Work::Slide& slide = work->slides[static_cast<std::size_t>(follows)];
   const double owed = std::exchange(slide.owed, 0.0), length_before = std::exchange(slide.length, 0.0),
-               before = pair.Friction() * from.rn[k];
+               before = ratio * from.forces[leads];
   const std::optional<double> behind = std::exchange(slide.behind, std::nullopt);
-  if (Slips(to.states[i])) {
-    const double length = std::abs(slip() * (1.0 - step.closed_after[i])), after = pair.Friction() * to.rn[k];
-    if (impact && from.states[i] == ContactState::kOpen) {
+  if (is.ports[p].Follows()) {
+    const double length = std::abs(travel() * (1.0 - step.acts_after[i])), after = ratio * to.forces[leads];
+    if (impact && was.idle) {
       slide.owed = length;
       return 0.0;
     }
@@ -59,10 +75,10 @@ double WorkOfMotion::OfContact(std::size_t i, const PathPoint& from, const Motio
     slide.length = length;
     return work_done;
   }
-  const double force = pair.Friction() * (to.states[i] == ContactState::kOpen ? from : to).rn[k];
-  if (to.states[i] != ContactState::kOpen || !Slips(from.states[i])) return 0.0;
+  const double force = ratio * (is.idle ? from : to).forces[leads];
+  if (!is.idle || !was.ports[p].Follows()) return 0.0;
   // It slides until nothing presses it: as far as its force falls on as it has fallen.
-  const double length = std::abs(slip());
+  const double length = std::abs(travel());
   return 0.5 * force * (slide.slope > 0.0 ? std::min(length, force / slide.slope) : length);
 }
 

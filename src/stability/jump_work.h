@@ -1,4 +1,4 @@
-// Work of friction and of the loads along a jump.
+// Work of the laws and of the loads along a jump.
 #ifndef CONTACT_PATH_SRC_STABILITY_JUMP_WORK_H_
 #define CONTACT_PATH_SRC_STABILITY_JUMP_WORK_H_
 
@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/structure/structure.h"
 #include "stability/motion_step.h"
 
@@ -15,38 +14,39 @@ namespace contact_path {
 
 // Work along a way so far.
 struct Work {
-  explicit Work(std::size_t contacts) : slides(contacts) {}
+  explicit Work(const Laws& laws) : slides(static_cast<std::size_t>(laws.NumPorts())) {}
 
-  // Of a candidate that slides.
+  // Of a port that follows.
   struct Slide {
-    double slope = 0.0;   // how its friction force has fallen with its slip in the last step
-    double length = 0.0;  // its slip in the last step, if that is a line of which both ends are known; else 0
-    // Slip since it has closed, or another has, for which the force at its end alone is known, or none. Drag makes
+    double slope = 0.0;   // how its force has fallen with its travel in the last step
+    double length = 0.0;  // its travel in the last step, if that is a line of which both ends are known; else 0
+    // Travel since its law has begun to act, or another has, for which the force at its end alone is known, or none. Drag makes
     // reactions of an impact there; the curve through those behind it leads back.
     double owed = 0.0;
     // What was owed behind the last step, of which nothing of how the curve bends has been counted.
     std::optional<double> behind;
   };
-  double friction = 0.0, loads = 0.0;
-  std::vector<Slide> slides;
+  double dissipation = 0.0, loads = 0.0;
+  std::vector<Slide> slides;  // by port
   bool after_impact = false;
 };
 
-// Of friction by a parabola through the force at the ends of two steps, of loads, which are linear, by the trapezoidal
+// Of what slides by a parabola through the force at the ends of two steps, of loads, which are linear, by the trapezoidal
 // rule. What moves with s does no work: the setting rests, and a machine drives nothing but loads.
 class WorkOfMotion {
  public:
   // Both must outlive the rule.
-  WorkOfMotion(const Structure& structure, const ContactPairs& contacts) : structure_(structure), contacts_(contacts) {}
+  WorkOfMotion(const Structure& structure, const Laws& laws) : structure_(structure), laws_(laws) {}
 
   // pushed: the step has the disturbance; drag makes reactions of it as of an impact.
   void Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work) const;
 
  private:
-  double OfContact(std::size_t i, const PathPoint& from, const MotionStep& step, bool impact, Work* work) const;
+  double OfPort(std::size_t i, std::size_t p, const PathPoint& from, const MotionStep& step, bool impact,
+                Work* work) const;
 
   const Structure& structure_;
-  const ContactPairs& contacts_;
+  const Laws& laws_;
 };
 
 }  // namespace contact_path

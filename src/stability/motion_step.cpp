@@ -7,23 +7,13 @@
 #include <utility>
 
 #include "contact_path/equations/newton_loop.h"
-#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
 constexpr int kMostRounds = 40;     // of the active set: what takes more is done by shorter steps
-constexpr int kRoundsTogether = 6;  // contacts change their states together, from then on one by one
-
-// Of a contact that has been on `patch`.
-int PatchOfOpen(const ContactPair& pair, int patch) { return pair.HasPatches() ? kNearestPatch : patch; }
-
-int PatchOfClosing(const ContactPair& pair, const Eigen::VectorXd& x, double s) {
-  const int patch = pair.PatchAt(x, s);
-  if (!pair.HasPatches() || pair.HasPatch(patch)) return patch;
-  return pair.HasPatch(patch + 1) ? patch + 1 : patch - 1;
-}
+constexpr int kRoundsTogether = 6;  // laws change their states together, from then on one by one
 
 }  // namespace
 
@@ -38,44 +28,42 @@ Eigen::VectorXd MachineEquation::Row(Eigen::Index unknowns) const {
   return of_all;
 }
 
-MotionStepSolver::MotionStepSolver(const Structure& structure, const ContactPairs& contacts,
-                                   const MachineEquation& machine)
-    : structure_(structure), contacts_(contacts), machine_(machine), system_(structure, contacts) {}
+MotionStepSolver::MotionStepSolver(const Structure& structure, const Laws& laws, const MachineEquation& machine)
+    : structure_(structure), laws_(laws), machine_(machine), system_(structure, laws) {}
 
-PathPoint MotionStepSolver::WithPatches(const PathPoint& point) {
-  system_.SetStates(point.states, SlipReferences(contacts_, point), point.patches);
+PathPoint MotionStepSolver::AsOfArc(const PathPoint& point) {
+  system_.SetModes(point.modes, laws_.ReferencesAt(point));
   return system_.Unpack(system_.Pack(point));
 }
 
 std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const Eigen::VectorXd& drag,
                                                   const Eigen::VectorXd& anchor) {
   MotionStep step;
-  step.closed_after.assign(contacts_.size(), 0.0);
-  Eigen::VectorXd references = SlipReferences(contacts_, from);
+  step.acts_after.assign(laws_.size(), 0.0);
+  Eigen::VectorXd references = laws_.ReferencesAt(from);
   PathPoint trial = from;
-  for (std::size_t i = 0; i < trial.patches.size(); ++i)
-    if (from.states[i] != ContactState::kOpen)
-      trial.patches[i] = contacts_[i]->PatchNow(from.u, from.s, from.patches[i]);
-  std::set<std::pair<std::vector<ContactState>, std::vector<int>>> tried;
+  for (std::size_t i = 0; i < laws_.size(); ++i)
+    if (!laws_[i].In(from.modes[i]).idle) trial.modes[i] = laws_[i].AtStart(from.u, from.s, from.modes[i]);
+  std::set<Modes> tried;
   for (; step.rounds < kMostRounds; ++step.rounds) {
-    system_.SetStates(trial.states, references, trial.patches);
+    system_.SetModes(trial.modes, references);
     Eigen::VectorXd x = system_.Pack(trial);
     if (!Newton(drag, anchor, &x, &step.iterations)) return std::nullopt;
     std::vector<Change> changes = Changes(x);
     if (changes.empty()) {
       step.point = system_.Unpack(x);
       step.determinant_sign = solver_.DeterminantSign();
-      step.changed = step.point.states != from.states;
-      for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        if (step.closed_after[i] == 0.0 || contacts_[i]->HasTotalLaw()) continue;
-        const int patch = step.point.Patch(i);
-        const double start = contacts_[i]->Xi(from.u, from.s, patch),
-                     way = contacts_[i]->Xi(step.point.u, step.point.s, patch) - start;
-        if (way != 0.0) step.closed_after[i] = (references[static_cast<Eigen::Index>(i)] - start) / way;
+      step.changed = !SameStates(step.point.modes, from.modes);
+      for (std::size_t i = 0; i < laws_.size(); ++i) {
+        if (step.acts_after[i] == 0.0 || laws_[i].Holonomic() || laws_[i].NumPorts() < 2) continue;
+        const int piece = step.point.modes[i].piece;
+        const double start = laws_[i].Motion(1, from.u, from.s, piece, {}),
+                     way = laws_[i].Motion(1, step.point.u, step.point.s, piece, {}) - start;
+        if (way != 0.0) step.acts_after[i] = (references[laws_.FirstPort(i) + 1] - start) / way;
       }
       return step;
     }
-    const bool again = !tried.emplace(trial.states, trial.patches).second;
+    const bool again = !tried.emplace(trial.modes).second;
     if (again || step.rounds >= kRoundsTogether) {
       std::iter_swap(changes.begin(),
                      std::max_element(changes.begin(), changes.end(),
@@ -83,57 +71,49 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
       changes.resize(1);
     }
     for (const Change& change : changes) {
-      NoteClosing(from, change, x, &references, &step);
-      trial.states[change.contact] = change.to.state;
-      if (!trial.patches.empty()) trial.patches[change.contact] = change.to.patch;
+      NoteActing(from, change, x, &references, &step);
+      trial.modes[change.law] = change.to;
     }
   }
   return std::nullopt;
 }
 
-void MotionStepSolver::NoteClosing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x,
-                                   Eigen::VectorXd* references, MotionStep* step) const {
-  const std::size_t i = change.contact;
-  const bool closes = from.states[i] == ContactState::kOpen && change.to.state != ContactState::kOpen;
-  if (!closes || system_.states()[i] != ContactState::kOpen) return;
-  const ContactPair& pair = *contacts_[i];
+void MotionStepSolver::NoteActing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x,
+                                  Eigen::VectorXd* references, MotionStep* step) const {
+  const std::size_t i = change.law;
+  const Law& law = laws_[i];
+  if (!law.In(from.modes[i]).idle || law.In(change.to).idle || !law.In(system_.modes()[i]).idle) return;
   const double s = x[system_.NumDofs()];
-  const double before = std::max(0.0, pair.Gap(from.u, from.s, change.to.patch)),
-               after = pair.Gap(x, s, change.to.patch);
+  const int piece = change.to.piece;
+  const double before = std::max(0.0, law.Motion(0, from.u, from.s, piece, {})),
+               after = law.Motion(0, x, s, piece, {});
   const double share = after < 0.0 ? before / (before - after) : 1.0;
-  step->closed_after[i] = share;
-  if (pair.HasTotalLaw()) return;
-  const double start = pair.Xi(from.u, from.s, change.to.patch);
-  (*references)[static_cast<Eigen::Index>(i)] = start + share * (pair.Xi(x, s, change.to.patch) - start);
+  step->acts_after[i] = share;
+  if (law.Holonomic()) return;
+  for (std::size_t p = 1; p < law.NumPorts(); ++p) {
+    const double start = law.Motion(p, from.u, from.s, piece, {});
+    (*references)[laws_.FirstPort(i) + static_cast<Eigen::Index>(p)] =
+        start + share * (law.Motion(p, x, s, piece, {}) - start);
+  }
 }
 
 std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::VectorXd& x) const {
   std::vector<Change> changes;
-  for (const Constraint& constraint : system_.Inequalities()) {
-    double tolerance = tolerances::kActive * system_.UnitOf(constraint);
-    if (!IsMotion(constraint.inequality)) tolerance *= system_.ResidualUnit();
-    const double excess = -system_.Value(constraint, x) / tolerance;
+  for (const Limit& limit : system_.Limits()) {
+    const LimitRule& rule = system_.RuleOf(limit);
+    double tolerance = tolerances::kActive * rule.unit;
+    if (rule.OfForces()) tolerance *= system_.ResidualUnit();
+    const double excess = -system_.Value(limit, x) / tolerance;
     if (!(excess > 1.0)) continue;
-    const auto contact = static_cast<std::size_t>(constraint.contact);
-    // Of a contact the worst one alone.
-    if (!changes.empty() && changes.back().contact == contact) {
+    const auto i = static_cast<std::size_t>(limit.law);
+    // Of a law the worst one alone.
+    if (!changes.empty() && changes.back().law == i) {
       if (changes.back().excess >= excess) continue;
       changes.pop_back();
     }
-    changes.push_back({contact, Next(constraint, x), excess});
+    changes.push_back({i, laws_[i].NextAt(x, x[system_.NumDofs()], system_.modes()[i], limit.id), excess});
   }
   return changes;
-}
-
-ContactMode MotionStepSolver::Next(const Constraint& violated, const Eigen::VectorXd& x) const {
-  const auto i = static_cast<std::size_t>(violated.contact);
-  const ContactPair& pair = *contacts_[i];
-  const int patch = system_.patches()[i];
-  ContactMode next = NextMode(pair, violated.inequality, {system_.states()[i], patch});
-  if (violated.inequality == Inequality::kGap) next.patch = PatchOfClosing(pair, x, x[system_.NumDofs()]);
-  if (KeepsPatch(violated.inequality) && !pair.HasPatch(next.patch)) next.state = ContactState::kOpen;
-  if (next.state == ContactState::kOpen) next.patch = PatchOfOpen(pair, patch);
-  return next;
 }
 
 bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row) {
@@ -167,7 +147,7 @@ bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd
 }
 
 int MotionStepSolver::DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag) {
-  system_.SetStates(point.states, SlipReferences(contacts_, point), point.patches);
+  system_.SetModes(point.modes, laws_.ReferencesAt(point));
   const Eigen::VectorXd x = system_.Pack(point);
   strains_from_ = strains_to_ = x.head(system_.NumDofs() + 1);
   return Factorize(x, drag, machine_.Row(system_.NumUnknowns())) ? solver_.DeterminantSign() : 0;

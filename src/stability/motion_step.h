@@ -7,10 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/contact_state.h"
-#include "contact_path/contact/path_point.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/law/laws.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/stability/machine.h"
 #include "contact_path/structure/structure.h"
@@ -34,45 +32,45 @@ struct MotionStep {
   int rounds = 0;            // of the active set
   bool changed = false;      // other states than at the start
   int determinant_sign = 0;  // of the equations of the step; 0 where they are singular
-  // By candidate: the share of its tangential motion after which it touches, where it closes; else 0.
-  std::vector<double> closed_after;
+  // By law: the share of the motion of its other ports after which it acts, where it was idle; else 0.
+  std::vector<double> acts_after;
 };
 
-// Solves phi(u, s) - T r + D (u - a) = 0 with the equation of the machine and the laws of contact: gaps and reactions
-// are those of the end of the step, slip counts from its start, or from where a contact closes. D: diagonal, a: the
+// Solves phi(u, s) - T r + D (u - a) = 0 with the equation of the machine and the laws: motions and forces are those of
+// the end of the step, travel counts from its start, or from where an idle law begins to act. D: diagonal, a: the
 // anchor of the drag, NumDofs() both. The states are found by an active set iteration around Newton's method.
 class MotionStepSolver {
  public:
   // All must outlive the solver.
-  MotionStepSolver(const Structure& structure, const ContactPairs& contacts, const MachineEquation& machine);
+  MotionStepSolver(const Structure& structure, const Laws& laws, const MachineEquation& machine);
 
-  // Nothing: Newton's method fails, or no states were found. `from` has known patches where contacts touch.
+  // Nothing: Newton's method fails, or no states were found. `from` has known pieces where laws act.
   std::optional<MotionStep> Solve(const PathPoint& from, const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor);
   // Sign of the determinant of these equations with the states of the point: 0 where they are singular.
   int DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag);
-  // The point with open contacts on kNearestPatch.
-  PathPoint WithPatches(const PathPoint& point);
+  // The point as an arc through it has it.
+  PathPoint AsOfArc(const PathPoint& point);
 
  private:
   struct Change {
-    std::size_t contact;
-    ContactMode to;
-    double excess;  // of the inequality, over its tolerance
+    std::size_t law;
+    Mode to;
+    double excess;  // of the limit, over its tolerance
   };
 
   // From the values of *x.
   bool Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x, int* iterations);
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row);
   std::vector<Change> Changes(const Eigen::VectorXd& x) const;
-  ContactMode Next(const Constraint& violated, const Eigen::VectorXd& x) const;
-  // Slip of a contact that closes counts from where its gap is zero: by linear interpolation of the step.
-  void NoteClosing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x, Eigen::VectorXd* references,
+  // Other ports of a law that begins to act are measured from where its first motion is zero: by linear interpolation of
+  // the step.
+  void NoteActing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x, Eigen::VectorXd* references,
                    MotionStep* step) const;
 
   const Structure& structure_;
-  const ContactPairs& contacts_;
+  const Laws& laws_;
   const MachineEquation& machine_;
-  FixedStateSystem system_;
+  FixedModeSystem system_;
   BorderedSolver solver_;
   Eigen::SparseMatrix<double> jacobian_;
   Eigen::VectorXd residual_, newton_step_;

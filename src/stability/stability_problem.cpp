@@ -18,8 +18,8 @@ constexpr int kInverseIterations = 6;  // each multiplies the share of a mode by
 
 }  // namespace
 
-StabilityProblem::StabilityProblem(const Structure& structure, const ContactPairs& contacts)
-    : structure_(structure), contacts_(contacts), system_(structure, contacts) {}
+StabilityProblem::StabilityProblem(const Structure& structure, const Laws& laws)
+    : structure_(structure), laws_(laws), system_(structure, laws) {}
 
 void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_directions) {
   Classify(point);
@@ -29,7 +29,7 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
   null_ = null_directions;
   BuildSaddle(transposed);
   const Eigen::Index constraints = saddle_.rows() - structure_.NumDofs();
-  // Reactions that are not unique do not matter where no contact slides.
+  // Forces that are not unique do not matter where nothing slides.
   regular_ = factors_.Factorize(saddle_, constraints) ||
              (slips_.empty() && symmetric_ && factors_.Factorize(saddle_, constraints, true));
   if (!regular_) return;
@@ -38,38 +38,34 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
   regular_ = negative_ >= 0 && Condense(transposed);
 }
 
-bool StabilityProblem::IsSymmetric(const PathPoint& point) const {
-  for (std::size_t i = 0; i < point.states.size(); ++i)
-    if (contacts_[i]->Frictional() && point.states[i] != ContactState::kOpen &&
-        (Slips(point.states[i]) || contacts_[i]->HasTotalLaw() || contacts_[i]->Curved()))
-      return false;
+bool StabilityProblem::IsSymmetric(const Modes& modes) const {
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    if (!laws_[i].In(modes[i]).symmetric) return false;
   return true;
 }
 
 void StabilityProblem::Classify(const PathPoint& point) {
-  std::vector<ContactState> states = point.states;
+  Modes modes = point.modes;
   slips_.clear();
   covered_ = true;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const ContactPair& pair = *contacts_[i];
-    if (states[i] == ContactState::kOpen || !pair.Frictional()) continue;
-    covered_ = covered_ && !pair.HasTotalLaw();
-    if (!Slips(states[i])) continue;
-    slips_.push_back({i, states[i] == ContactState::kSlipPlus ? 1.0 : -1.0, pair.Friction(), 0, 0});
-    states[i] = ContactState::kStick;
-  }
-  if (states != system_.states() || point.patches != system_.patches())
-    system_.SetStates(states, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(states.size())), point.patches);
-  // Unknowns of the saddle: u, then the reactions as the system numbers them, without the load factor.
+  // Unknowns of the saddle: u, then the forces as the system numbers them, without the load factor.
   Eigen::Index next = structure_.NumDofs();
-  std::size_t slip = 0;
-  for (const std::size_t i : system_.Touching()) {
-    if (slip < slips_.size() && slips_[slip].contact == i) {
-      slips_[slip].normal = next;
-      slips_[slip++].tangent = next + 1;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const Law& law = laws_[i];
+    const StateRule& state = law.In(modes[i]);
+    if (state.idle) continue;
+    covered_ = covered_ && !(law.Holonomic() && law.LargestRatio() > 0.0);
+    modes[i].state = state.held;
+    const StateRule& held = law.In(modes[i]);
+    const Eigen::Index leading = next;
+    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+      if (!held.ports[p].Holds()) continue;
+      if (state.ports[p].Follows())
+        slips_.push_back({state.ports[p].ratio < 0.0 ? 1.0 : -1.0, std::abs(state.ports[p].ratio), leading, next});
+      ++next;
     }
-    next += system_.states()[i] == ContactState::kStick ? 2 : 1;
   }
+  if (modes != system_.modes()) system_.SetModes(modes);
 }
 
 void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed) {
@@ -122,7 +118,7 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(size, 1 + count);  // by the load, and by unit slips
   solutions.col(0).head(nd) = f;
   for (Eigen::Index k = 0; k < count; ++k)
-    solutions(slips_[static_cast<std::size_t>(k)].tangent, 1 + k) = -slips_[static_cast<std::size_t>(k)].sense;
+    solutions(slips_[static_cast<std::size_t>(k)].following, 1 + k) = -slips_[static_cast<std::size_t>(k)].sense;
   factors_.Solve(&solutions);
   if (!solutions.allFinite()) return false;
   by_load_ = solutions.col(0).head(nd);
@@ -150,11 +146,11 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
     for (Eigen::Index k = 0; k < count; ++k) {
       const Slip& slip = slips_[static_cast<std::size_t>(k)];
       double by_row = 0.0, by_force = 0.0;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, slip.tangent); it && it.row() < nd; ++it) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, slip.following); it && it.row() < nd; ++it) {
         by_row += it.value() * it.value();
-        by_force += it.value() * forces_.coeff(it.row(), slip.tangent - nd);
+        by_force += it.value() * forces_.coeff(it.row(), slip.following - nd);
       }
-      right(slip.tangent, 1 + k) = slip.sense * by_row / by_force;
+      right(slip.following, 1 + k) = slip.sense * by_row / by_force;
     }
     unsymmetric_.SolveAll(right, &all);
     by_load_ = all.col(0).head(nd);
@@ -168,11 +164,11 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   w_of_load_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Slip& slip = slips_[static_cast<std::size_t>(i)];
-    const Eigen::RowVectorXd along = slip.sense * solutions.row(slip.tangent).segment(1, count),
-                             across = slip.friction * solutions.row(slip.normal).segment(1, count);
+    const Eigen::RowVectorXd along = slip.sense * solutions.row(slip.following).segment(1, count),
+                             across = slip.ratio * solutions.row(slip.leading).segment(1, count);
     H_.row(i) = along + across;
     stiffest_slip_ = std::max({stiffest_slip_, along.cwiseAbs().maxCoeff(), across.cwiseAbs().maxCoeff()});
-    w_of_load_[i] = slip.sense * solutions(slip.tangent, 0) + slip.friction * solutions(slip.normal, 0);
+    w_of_load_[i] = slip.sense * solutions(slip.following, 0) + slip.ratio * solutions(slip.leading, 0);
   }
   return H_.allFinite();
 }
@@ -184,7 +180,7 @@ Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
 
 Eigen::VectorXd StabilityProblem::FallingMode() const {
   const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
-  // Not more than there are motions that the contacts admit: further columns of a basis would be none.
+  // Not more than there are motions that the laws admit: further columns of a basis would be none.
   const Eigen::Index count = std::min(kModes, std::max(negative_, nd - (size - nd)));
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
   for (Eigen::Index k = 0; k < count; ++k) modes.col(k).head(nd) = GenericVector(nd).array().pow(k + 1);
@@ -206,7 +202,7 @@ double StabilityProblem::PossibleSense() const {
   Eigen::VectorXd slips(static_cast<Eigen::Index>(slips_.size()));
   for (Eigen::Index k = 0; k < slips.size(); ++k) {
     const Slip& slip = slips_[static_cast<std::size_t>(k)];
-    slips[k] = slip.sense * forces_.col(slip.tangent - structure_.NumDofs()).dot(null_.col(0));
+    slips[k] = slip.sense * forces_.col(slip.following - structure_.NumDofs()).dot(null_.col(0));
   }
   const double rounding = tolerances::kSameTangent * null_.col(0).norm();
   if (slips.minCoeff() >= -rounding) return 1.0;
@@ -234,7 +230,7 @@ Stability StabilityProblem::Under(double compliance) const {
     if (const int directions = held ? Under(0.0).directions : -1; directions >= 0) found.directions = directions + 1;
     return found;
   }
-  // f . du per unit of Q - f . u. Where the loads act on what the contacts hold, a rigid machine is taken for a very
+  // f . du per unit of Q - f . u. Where the loads act on what the laws hold, a rigid machine is taken for a very
   // stiff one.
   double machine = load_compliance_ + compliance;
   if (!dead) {

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/path/model.h"
 #include "support/traced_path.h"
 
@@ -42,9 +42,9 @@ TEST(Allocations, AreAsManyForFewIterationsOfTheCorrectorAsForMany) {
     SCOPED_TRACE(scene);
     const Scene example = ReadExample(scene).scene;
     const Model model(example, CharacteristicScales(example));
-    ContactArc arc(model.structure, model.contacts);
+    ModeArc arc(model.structure, model.laws);
     const PathPoint start = model.InitialPoint();
-    arc.SetStates(start.states, start);
+    arc.SetModes(start);
     const Eigen::VectorXd x = arc.system().Pack(start);
     const Eigen::VectorXd increment = Eigen::VectorXd::Unit(x.size(), arc.NumMotion() - 1);  // the load factor
     const Counted warm_up = Correct(&arc, x, increment, increment.dot(x));

@@ -7,14 +7,16 @@
 #include <numeric>
 #include <vector>
 
+#include "support/contact_points.h"
+
 namespace contact_path::branch_order_test {
 namespace {
 
 constexpr ContactState kOpen = ContactState::kOpen, kStick = ContactState::kStick, kSlip = ContactState::kSlipPlus;
 
-Branch Make(std::vector<ContactState> states, double dissipation, double load, double turn, double first = 1.0) {
+Branch Make(const std::vector<ContactState>& states, double dissipation, double load, double turn, double first = 1.0) {
   Branch branch;
-  branch.states = std::move(states);
+  branch.modes = ModesOf(states);
   branch.dissipation_rate = dissipation;
   branch.load_rate = branch.parameter_rate = load;
   branch.sense = load > 0.0 ? 1 : -1;
@@ -25,7 +27,7 @@ Branch Make(std::vector<ContactState> states, double dissipation, double load, d
 
 // The load rates, which name the branches.
 std::vector<double> Sorted(std::vector<Branch> branches, const std::vector<ContactState>& arrival) {
-  SortBranches(arrival, false, &branches);
+  SortBranches(ModesOf(arrival), false, &branches);
   std::vector<double> names;
   for (const Branch& branch : branches) names.push_back(branch.load_rate);
   return names;
@@ -72,7 +74,7 @@ TEST(BranchOrder, OfEqualTurnTheOneThatLoads) {
   ExpectOrder(branches, {kStick}, {1.0, -0.7});
   std::vector<Branch> unloading = branches;
   for (Branch& branch : unloading) branch.parameter_rate *= -1.0;
-  SortBranches({kOpen}, false, &unloading);
+  SortBranches(ModesOf({kOpen}), false, &unloading);
   EXPECT_EQ(unloading.front().load_rate, -0.7);
 }
 
@@ -81,7 +83,7 @@ TEST(BranchOrder, ForwardBeforeDissipation) {
   std::vector<Branch> branches = {Make({kSlip}, 0.5, -1.0, 0.0), Make({kStick}, 0.3, 0.0, 0.1),
                                   Make({kStick}, 0.1, 1.0, 0.3), Make({kOpen}, 0.2, 2.0, 2.0)};
   branches[1].sense = 0;
-  SortBranches({kSlip}, true, &branches);
+  SortBranches(ModesOf({kSlip}), true, &branches);
   std::vector<double> names;
   for (const Branch& branch : branches) names.push_back(branch.load_rate);
   EXPECT_EQ(names, (std::vector<double>{2.0, 1.0, 0.0, -1.0}));

@@ -11,6 +11,7 @@
 
 #include "contact_path/branch/event_functions.h"
 #include "contact_path/path/model.h"
+#include "support/contact_points.h"
 #include "support/dense.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
@@ -23,17 +24,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
-using States = std::vector<ContactState>;
 
 constexpr ContactState kOpen = ContactState::kOpen, kStick = ContactState::kStick, kClosed = ContactState::kClosed;
 constexpr ContactState kSlipPlus = ContactState::kSlipPlus, kSlipMinus = ContactState::kSlipMinus;
+
+using ContactStates = std::vector<ContactState>;
+
+ContactStates StatesIn(const Branch& branch) { return ContactStatesOf(branch.modes); }
 
 // A scene in its own scales: what is given here is what the rates are of.
 struct Rest {
   explicit Rest(const Scene& scene) : model(scene, Scaling()), point(model.InitialPoint()) {}
 
   BranchSet Branches(const Arrival& arrival) {
-    return FindBranches(model.structure, model.contacts, point, arrival, ActiveSetTolerance());
+    return FindBranches(model.structure, model.laws, point, arrival, ActiveSetTolerance());
   }
   BranchSet FromStart(double sign) {
     Arrival arrival;
@@ -61,9 +65,8 @@ Scene OneNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double fri
 std::unique_ptr<Rest> RestingNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double friction, double rn,
                                   double rt, ContactState state) {
   auto rest = std::make_unique<Rest>(OneNode(stiffness, load, friction, rn, rt));
-  rest->point.rn[0] = rn;
-  rest->point.rt[0] = rt;
-  rest->point.states[0] = state;
+  SetReaction(0, rn, rt, &rest->point);
+  rest->point.modes[0].state = NumberOf(state);
   return rest;
 }
 
@@ -79,7 +82,7 @@ TEST(FindBranches, EdgeOfTheCone) {
   const BranchSet on = rest->Branches(arrival);
   ASSERT_EQ(on.branches.size(), 1U);  // sticking back is the branch of arrival
   EXPECT_EQ(on.weakly_active, 1);
-  EXPECT_EQ(on.branches[0].states, States{kSlipPlus});
+  EXPECT_EQ(StatesIn(on.branches[0]), ContactStates{kSlipPlus});
   const double norm = std::sqrt(5.0);
   EXPECT_NEAR(on.branches[0].load_rate, 2.0 / norm, 1e-15);
   EXPECT_NEAR(on.branches[0].direction[0], 1.0 / norm, 1e-15);
@@ -93,10 +96,10 @@ TEST(FindBranches, SlippingItMaySlipOnOrStick) {
   arrival.direction = Eigen::Vector3d(1.0, 0.0, 2.0).normalized();
   const BranchSet on = rest->Branches(arrival);
   ASSERT_EQ(on.branches.size(), 2U);
-  EXPECT_EQ(on.branches[0].states, States{kSlipPlus});
+  EXPECT_EQ(StatesIn(on.branches[0]), ContactStates{kSlipPlus});
   EXPECT_NEAR(on.branches[0].turn, 0.0, 1e-7);
   EXPECT_NEAR(on.branches[0].dissipation_rate, 0.5 / std::sqrt(5.0), 1e-15);
-  EXPECT_EQ(on.branches[1].states, States{kStick});
+  EXPECT_EQ(StatesIn(on.branches[1]), ContactStates{kStick});
   EXPECT_EQ(on.branches[1].dissipation_rate, 0.0);
   EXPECT_NEAR(on.branches[1].load_rate, -1.0, 1e-15);
 }
@@ -113,7 +116,7 @@ TEST(FindBranches, SeveralBranchesAtOnce) {
   arrival.direction = Eigen::Vector3d(0.0, 0.0, 1.0);
   const BranchSet on = rest->Branches(arrival);
   ASSERT_EQ(on.branches.size(), 1U);
-  EXPECT_EQ(on.branches[0].states, States{kSlipPlus});
+  EXPECT_EQ(StatesIn(on.branches[0]), ContactStates{kSlipPlus});
   EXPECT_NEAR(on.branches[0].load_rate / on.branches[0].direction[0], -0.5, 1e-15);
   EXPECT_NEAR(on.branches[0].dissipation_rate, on.branches[0].direction[0], 1e-15);
   // Where it lifts off: slip no further; open with ds/du = 1.75 / 4.
@@ -121,7 +124,7 @@ TEST(FindBranches, SeveralBranchesAtOnce) {
   arrival.direction = Eigen::Vector3d(1.0, 0.0, -0.5).normalized();
   const BranchSet open = lifting->Branches(arrival);
   ASSERT_FALSE(open.branches.empty());
-  EXPECT_EQ(open.branches[0].states, States{kOpen});
+  EXPECT_EQ(StatesIn(open.branches[0]), ContactStates{kOpen});
   EXPECT_NEAR(open.branches[0].load_rate / open.branches[0].direction[0], 0.4375, 1e-15);
 }
 
@@ -171,7 +174,7 @@ struct LinearProblem {
   std::vector<Ray> Rays(double* nearest) const {
     std::vector<Ray> rays;
     *nearest = 1.0;
-    States combination(Size(n()), kOpen);
+    ContactStates combination(Size(n()), kOpen);
     Enumerate(0, &combination, &rays, nearest);
     return rays;
   }
@@ -192,7 +195,7 @@ struct LinearProblem {
     return false;
   }
 
-  void Enumerate(Index i, States* combination, std::vector<Ray>* rays, double* nearest) const {
+  void Enumerate(Index i, ContactStates* combination, std::vector<Ray>* rays, double* nearest) const {
     if (i == n()) {
       Try(*combination, rays, nearest);
       return;
@@ -205,7 +208,7 @@ struct LinearProblem {
   }
 
   // Unknowns (du, ds, drn, drt): K du - ds f - sum (drn n + drt t) = 0 and two equations a contact.
-  void Try(const States& combination, std::vector<Ray>* rays, double* nearest) const {
+  void Try(const ContactStates& combination, std::vector<Ray>* rays, double* nearest) const {
     const Index size = 4 * n() + 1;
     MatrixXd equations = MatrixXd::Zero(4 * n(), size);
     equations.topLeftCorner(2 * n(), 2 * n()) = stiffness;
@@ -297,8 +300,8 @@ TEST(FindBranches, FindsExactlyTheAdmissibleRays) {
 
     Rest rest(problem.ToScene());
     for (Index k = 0; k < n; ++k) {
-      rest.point.rn[k] = problem.rn[static_cast<std::size_t>(k)];
-      rest.point.rt[k] = problem.rt[static_cast<std::size_t>(k)];
+      const auto contact = static_cast<std::size_t>(k);
+      SetReaction(contact, problem.rn[contact], problem.rt[contact], &rest.point);
     }
     Arrival arrival;  // from where no ray leads
     arrival.direction = random.Vector(2 * n + 1, -1.0, 1.0).normalized();
@@ -352,7 +355,7 @@ TEST(FindBranches, FindsExactlyTheAdmissibleRays) {
 // many.
 TEST(FindBranches, ManyContactsAtOnce) {
   Scene scene;
-  States expected;
+  ContactStates expected;
   Random random(2);
   for (int i = 0; i < 12; ++i) {
     const std::string name = "n" + std::to_string(i);
@@ -375,7 +378,7 @@ TEST(FindBranches, ManyContactsAtOnce) {
   EXPECT_EQ(on.complete_by, Completeness::kNone);
   EXPECT_LE(on.combinations, 100);
   ASSERT_EQ(on.branches.size(), 1U);
-  EXPECT_EQ(on.branches[0].states, expected);
+  EXPECT_EQ(StatesIn(on.branches[0]), expected);
 }
 
 // Unloaded contacts, all touching, ds = 1: the admissible branches by trying all 4^n combinations on the compliance.
@@ -479,7 +482,7 @@ TEST(FindBranches, BranchesThatBreakASymmetryAreMirrors) {
   ASSERT_NE(corner, path.increments.end());
   EXPECT_NEAR(corner->load_factor, rough_truss::CornerLoad(), 1e-14);
   ASSERT_EQ(corner->event.branches.size(), 3U);
-  EXPECT_EQ(corner->event.branches[0].states, (States{kSlipPlus, kSlipMinus}));
+  EXPECT_EQ(corner->event.branches[0].states, (ContactStates{kSlipPlus, kSlipMinus}));
   EXPECT_EQ(corner->event.taken, 1);
   EXPECT_NEAR(corner->event.branches[1].dissipation_rate, corner->event.branches[2].dissipation_rate, 1e-12);
   EXPECT_NEAR(corner->event.branches[1].load_rate, corner->event.branches[2].load_rate, 1e-12);

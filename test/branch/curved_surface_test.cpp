@@ -46,15 +46,14 @@ class NodeOnADisc : public testing::Test {
     PathPoint point;
     point.u = n;
     point.s = solved[0];
-    point.rn = Vector2d(solved[1], 0.0);
-    point.rt = Vector2d(ratio * solved[1], 0.0);
-    point.states = {state, ContactState::kOpen};
+    point.forces = Eigen::Vector4d(solved[1], ratio * solved[1], 0.0, 0.0);
+    point.modes = ModesOf({state, ContactState::kOpen});
     return point;
   }
   // (u, s, r_n) of the slipping node.
   Eigen::Vector4d ClosedForm(double angle) const {
     const PathPoint point = At(angle, -kFriction, ContactState::kSlipPlus);
-    return {point.u[0], point.u[1], point.s, point.rn[0]};
+    return {point.u[0], point.u[1], point.s, point.forces[0]};
   }
 
   Structure structure_;
@@ -67,23 +66,24 @@ TEST_F(NodeOnADisc, RatesAtAnEventAreThoseOfTheClosedForm) {
   const PathPoint point = At(angle, -kFriction, ContactState::kStick);  // at the edge of its cone
   const Eigen::Vector4d rate = (ClosedForm(angle + h) - ClosedForm(angle - h)) / (2.0 * h);
   const VectorXd arrival = rate.head<3>().normalized();
-  const RateProblem problem(structure_, contacts_, point, point.states, {0}, arrival);
+  const Laws laws = LawsOf(contacts_);
+  const RateProblem problem(structure_, laws, point, point.modes, {0}, arrival);
   ASSERT_TRUE(problem.regular());
-  const std::optional<CondensedRates> rates = problem.Rates({ContactState::kSlipPlus, ContactState::kOpen});
+  const std::optional<CondensedRates> rates = problem.Rates(StatesOf(ModesOf({ContactState::kSlipPlus, ContactState::kOpen})));
   ASSERT_TRUE(rates);
-  const double sign = rates->slip[0] < 0.0 ? -1.0 : 1.0, speed = rate.head<3>().norm();
+  const double sign = rates->motion[kTangent] < 0.0 ? -1.0 : 1.0, speed = rate.head<3>().norm();
   EXPECT_NEAR(sign * rates->load, rate[2] / speed, 1e-7);
-  EXPECT_NEAR(sign * rates->slip[0], 1.0 / speed, 1e-7);
-  EXPECT_NEAR(sign * rates->rn[0], rate[3] / speed, 1e-7);
-  EXPECT_NEAR(rates->gap[0], 0.0, kExact);
+  EXPECT_NEAR(sign * rates->motion[kTangent], 1.0 / speed, 1e-7);
+  EXPECT_NEAR(sign * rates->force[kNormal], rate[3] / speed, 1e-7);
+  EXPECT_NEAR(rates->motion[kNormal], 0.0, kExact);
 
   Arrival from;
   from.direction = arrival;
-  const BranchSet set = FindBranches(structure_, contacts_, point, from, ActiveSetTolerance());
+  const BranchSet set = FindBranches(structure_, laws, point, from, ActiveSetTolerance());
   ASSERT_FALSE(set.branches.empty());
-  EXPECT_EQ(set.branches[0].states[0], ContactState::kSlipPlus);
+  EXPECT_EQ(StateOf(set.branches[0].modes[0]), ContactState::kSlipPlus);
   EXPECT_LE((set.branches[0].direction - arrival).norm(), 1e-7);
-  EXPECT_NEAR(set.branches[0].dissipation_rate, kFriction * point.rn[0] / speed, 1e-7);
+  EXPECT_NEAR(set.branches[0].dissipation_rate, kFriction * point.forces[0] / speed, 1e-7);
 }
 
 }  // namespace

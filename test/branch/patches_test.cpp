@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/branch/event_functions.h"
-#include "contact_path/branch/state_options.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/geometry/point_curves.h"
 #include "contact_path/structure/structure.h"
+#include "support/contact_points.h"
 
 namespace contact_path::patches_test {
 namespace {
@@ -31,6 +31,7 @@ class NodeOnABend : public testing::TestWithParam<double> {
   NodeOnABend() : structure_(MakeScene()), curve_(MakePolyline({{-1.0, 0.0}, {1.0, 0.0}, {2.0, -1.0}}, false, 0.4)) {
     contacts_.push_back(
         std::make_unique<RigidPair>(curve_, NodeMotion{{0, 1}, Vector2d::Zero(), Vector2d::Zero()}, GetParam()));
+    laws_ = LawsOf(contacts_);
   }
   static Scene MakeScene() {
     Scene scene;
@@ -50,10 +51,8 @@ class NodeOnABend : public testing::TestWithParam<double> {
     PathPoint point;
     point.u = x;
     point.s = solved[0];
-    point.rn = VectorXd::Constant(1, solved[1]);
-    point.rt = -GetParam() * point.rn;
-    point.states = {GetParam() > 0.0 ? kSlipPlus : kClosed};
-    point.patches = {patch};
+    point.forces = solved[1] * Vector2d(1.0, -GetParam());
+    point.modes = ModesOf({GetParam() > 0.0 ? kSlipPlus : kClosed}, {patch});
     return point;
   }
   static Eigen::Vector3d Motion(const PathPoint& point) { return {point.u[0], point.u[1], point.s}; }
@@ -65,8 +64,8 @@ class NodeOnABend : public testing::TestWithParam<double> {
   }
   double Xi(const VectorXd& x, int patch) const { return curve_->Project(x.head<2>(), patch).xi; }
   // From xi, by this length along the tangent.
-  Step StepFrom(ContactArc* arc, const PathPoint& point, const Eigen::Vector3d& towards, double length) const {
-    arc->SetStates(point.states, point);
+  Step StepFrom(ModeArc* arc, const PathPoint& point, const Eigen::Vector3d& towards, double length) const {
+    arc->SetModes(point);
     CurvePoint start, end;
     EXPECT_TRUE(arc->Derivatives(arc->system().Pack(point), towards, &start));
     const VectorXd normal = start.first.head(3);
@@ -78,23 +77,24 @@ class NodeOnABend : public testing::TestWithParam<double> {
   Structure structure_;
   std::shared_ptr<const Curve> curve_;
   ContactPairs contacts_;
+  Laws laws_;
 };
 
 TEST_P(NodeOnABend, TheEndOfAPatchIsLocatedExactly) {
   for (const int patch : {0, 1}) {
-    ContactArc arc(structure_, contacts_);
+    ModeArc arc(structure_, laws_);
     const double from = End(patch) - 0.03;
     const Step step = StepFrom(&arc, At(from, patch), Rate(from, patch, 1e-5), 0.2);
     const StepEvent event = FirstEvent(&arc, step);
     ASSERT_EQ(event.Kind(), EventKind::kContactEvent);
-    EXPECT_EQ(event.fails->inequality, Inequality::kPatchEnd);
+    EXPECT_EQ(event.fails->id, NumberOf(ContactLimit::kPatchEnd));
     const std::optional<CurvePoint> located = Locate(&arc, step, event);
     ASSERT_TRUE(located);
     EXPECT_NEAR(Xi(located->x, patch), End(patch), kExact);
     const PathPoint there = At(End(patch), patch);
     EXPECT_NEAR((located->x.head<2>() - there.u).norm(), 0.0, kExact);
     EXPECT_NEAR(located->x[2], there.s, kExact);
-    EXPECT_NEAR(located->x[3], there.rn[0], kExact);
+    EXPECT_NEAR(located->x[3], there.forces[0], kExact);
   }
 }
 
@@ -105,15 +105,14 @@ TEST_P(NodeOnABend, ThePathGoesOnOnTheNextPatch) {
     const Eigen::Vector3d before = Rate(End(patch), patch, -1e-5), after = Rate(End(patch), patch + 1, 1e-5);
     Arrival arrival;
     arrival.direction = before;
-    const BranchSet set = FindBranches(structure_, contacts_, point, arrival, ActiveSetTolerance());
+    const BranchSet set = FindBranches(structure_, laws_, point, arrival, ActiveSetTolerance());
     ASSERT_FALSE(set.branches.empty());
-    EXPECT_EQ(set.branches[0].states, point.states);
-    ASSERT_EQ(set.branches[0].patches, std::vector<int>{patch + 1});
+    ASSERT_EQ(set.branches[0].modes, (Modes{{point.modes[0].state, patch + 1}}));
     EXPECT_LE((set.branches[0].direction - after).norm(), 1e-8);
     EXPECT_GT((after - before).norm(), 0.1);
     for (const Branch& branch : set.branches)
-      if (branch.states[0] == point.states[0]) {
-        EXPECT_EQ(branch.patches[0], patch + 1);
+      if (branch.modes[0].state == point.modes[0].state) {
+        EXPECT_EQ(branch.modes[0].piece, patch + 1);
       }
   }
 }
@@ -122,28 +121,28 @@ TEST_P(NodeOnABend, WhereTwoPatchesMeetSlipLeadsToTheOneAhead) {
   const bool rough = GetParam() > 0.0;
   for (const int patch : {0, 1}) {
     PathPoint point = At(End(0), patch);
-    const auto options = [&] { return StateOptions(*contacts_[0], point, 0, ActiveSetTolerance()); };
+    const auto options = [&] { return laws_.ModesAt(point, 0, ActiveSetTolerance()); };
     if (rough) {
-      EXPECT_EQ(options(), (ContactModes{{kSlipPlus, 1}, {kStick, patch}}));
-      point.rt = -point.rt;
-      point.states = {kStick};
-      EXPECT_EQ(options(), (ContactModes{{kStick, patch}, {kSlipMinus, 0}}));
+      EXPECT_EQ(options(), ModesOf({kSlipPlus, kStick}, {1, patch}));
+      point.forces[kTangent] *= -1.0;
+      point.modes = ModesOf({kStick}, {patch});
+      EXPECT_EQ(options(), ModesOf({kStick, kSlipMinus}, {patch, 0}));
     } else {
-      EXPECT_EQ(options(), (ContactModes{{kClosed, patch}, {kClosed, 1 - patch}}));
+      EXPECT_EQ(options(), ModesOf({kClosed, kClosed}, {patch, 1 - patch}));
     }
-    point.rn[0] = point.rt[0] = 0.0;
-    EXPECT_EQ(options().back(), (ContactMode{kOpen, patch}));
+    point.forces.setZero();
+    EXPECT_EQ(options().back(), (Mode{NumberOf(kOpen), patch}));
   }
   // Between the ends there is one patch.
-  for (const ContactMode& mode : StateOptions(*contacts_[0], At(0.5 * (End(0) + End(1)), 1), 0, ActiveSetTolerance()))
-    EXPECT_EQ(mode.patch, 1);
+  for (const Mode& mode : laws_.ModesAt(At(0.5 * (End(0) + End(1)), 1), 0, ActiveSetTolerance()))
+    EXPECT_EQ(mode.piece, 1);
 }
 
 TEST_P(NodeOnABend, NothingSlidesOverTheEndOfAnOpenSurface) {
   PathPoint point = At(End(2), 2);
-  for (const ContactMode& mode : StateOptions(*contacts_[0], point, 0, ActiveSetTolerance())) {
-    EXPECT_NE(mode.state, kSlipPlus);
-    EXPECT_EQ(mode.patch, 2);
+  for (const Mode& mode : laws_.ModesAt(point, 0, ActiveSetTolerance())) {
+    EXPECT_NE(StateOf(mode), kSlipPlus);
+    EXPECT_EQ(mode.piece, 2);
   }
 }
 
@@ -157,10 +156,9 @@ TEST_P(NodeOnABend, OpenContactsChangeTheirPatchWithoutAnEvent) {
   point.s = force.x();
   scene.loads.push_back({"p", 0.0, force.y() + 0.2 * point.s, true});
   const Structure held(scene);
-  ContactArc free(held, contacts_);
-  point.rn = point.rt = VectorXd::Zero(1);
-  point.states = {kOpen};
-  point.patches = {0};
+  ModeArc free(held, laws_);
+  point.forces = VectorXd::Zero(2);
+  point.modes = ModesOf({kOpen});
   const Step step = StepFrom(&free, point, {1.0, 0.0, 1.0}, 0.1);
   const StepEvent event = FirstEvent(&free, step);
   ASSERT_EQ(event.Kind(), EventKind::kNearTouch);
@@ -169,7 +167,7 @@ TEST_P(NodeOnABend, OpenContactsChangeTheirPatchWithoutAnEvent) {
   EXPECT_GT(Xi(located->x, 0), End(0));
   EXPECT_LT(Xi(located->x, 0), End(0) + 1e-8);
   const PathPoint there = free.system().Unpack(located->x);
-  EXPECT_EQ(contacts_[0]->KnownPatch(there.u, there.s, there.patches[0]), 1);
+  EXPECT_EQ(contacts_[0]->KnownPatch(there.u, there.s, there.modes[0].piece), 1);
   EXPECT_EQ(FirstEvent(&free, MakeStep(*located, step.end, 3)).Kind(), EventKind::kNone);
 }
 

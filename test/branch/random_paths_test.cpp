@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scaling.h"
@@ -393,7 +393,7 @@ class Neighbourhood {
   Neighbourhood(const TracedPath& path)
       : path_(path),
         model_(path.request.scene, CharacteristicScales(path.request.scene)),
-        arc_(model_.structure, model_.contacts),
+        arc_(model_.structure, model_.laws),
         point_(model_.FromIncrement(path.increments.back())) {
     if (path.increments.size() > 1) {
       const PathPoint before = model_.FromIncrement(path.increments[path.increments.size() - 2]);
@@ -414,18 +414,18 @@ class Neighbourhood {
  private:
   std::vector<ContactState> Options(std::size_t i) const {
     const ContactPair& contact = *model_.contacts[i];
-    const auto k = static_cast<Eigen::Index>(i);
+    const double rn = NormalReaction(point_, i), rt = TangentialReaction(point_, i);
     if (contact.Gap(point_.u, point_.s, 0) > kTouching) return {ContactState::kOpen};
     std::vector<ContactState> options;
-    if (point_.rn[k] < kTouching) options = {ContactState::kOpen};
+    if (rn < kTouching) options = {ContactState::kOpen};
     if (!contact.Frictional()) {
       options.push_back(ContactState::kClosed);
       return options;
     }
     options.push_back(ContactState::kStick);
-    const double limit = contact.Friction() * point_.rn[k];
-    if (limit + point_.rt[k] < kTouching) options.push_back(ContactState::kSlipPlus);
-    if (limit - point_.rt[k] < kTouching) options.push_back(ContactState::kSlipMinus);
+    const double limit = contact.Friction() * rn;
+    if (limit + rt < kTouching) options.push_back(ContactState::kSlipPlus);
+    if (limit - rt < kTouching) options.push_back(ContactState::kSlipMinus);
     return options;
   }
 
@@ -443,9 +443,11 @@ class Neighbourhood {
   }
 
   void Try(const std::vector<ContactState>& states) {
-    arc_.SetStates(states, point_);
+    PathPoint begin = point_;
+    for (std::size_t i = 0; i < states.size(); ++i) begin.modes[i].state = NumberOf(states[i]);
+    arc_.SetModes(begin);
     const Eigen::VectorXd x = arc_.system().Pack(point_);
-    FixedStateSystem system = arc_.system();
+    FixedModeSystem system = arc_.system();
     const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system.TransposedJacobian(x)).transpose();
     const SingularValueDecomposition dense = Decompose(jacobian);
     const Eigen::Index motion = arc_.NumMotion();
@@ -467,14 +469,14 @@ class Neighbourhood {
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& unit, double distance) {
     const Correction correction = arc_.CorrectOnPlane(x + distance * unit, unit.head(arc_.NumMotion()));
     if (!correction.converged) return false;
-    for (const Constraint& limit : arc_.system().Inequalities())
+    for (const Limit& limit : arc_.system().Limits())
       if (arc_.system().Value(limit, correction.x) < -1e-5 * distance * distance) return false;
     return true;
   }
 
   const TracedPath& path_;
   Model model_;
-  ContactArc arc_;
+  ModeArc arc_;
   PathPoint point_;
   Eigen::VectorXd back_;
   int found_ = 0;

@@ -32,12 +32,12 @@ inline Along operator*(const Along& a, const Along& b) {
 class ToyEquations : public ArcEquations {
  public:
   using Unknowns = std::vector<Along>;
-  struct Limit {
+  struct Watched {
     std::function<Along(const Unknowns&)> of;
     bool of_rate = false;
   };
 
-  ToyEquations(Eigen::Index unknowns, std::function<Unknowns(const Unknowns&)> F, std::vector<Limit> limits = {})
+  ToyEquations(Eigen::Index unknowns, std::function<Unknowns(const Unknowns&)> F, std::vector<Watched> limits = {})
       : unknowns_(unknowns), F_(std::move(F)), limits_(std::move(limits)) {}
 
   Eigen::Index NumUnknowns() const override { return unknowns_; }
@@ -60,29 +60,29 @@ class ToyEquations : public ArcEquations {
     return Column(F_(At(x, dx)), &Along::second);
   }
 
-  std::vector<Constraint> LimitsInReach(const Eigen::VectorXd& /*x*/, double /*reach*/,
-                                        std::vector<Constraint>* near) override {
+  std::vector<Limit> LimitsInReach(const Eigen::VectorXd& /*x*/, double /*reach*/,
+                                        std::vector<Limit>* near) override {
     near->clear();
-    std::vector<Constraint> all;
-    for (std::size_t i = 0; i < limits_.size(); ++i) all.push_back({static_cast<int>(i), Inequality::kGap});
+    std::vector<Limit> all;
+    for (std::size_t i = 0; i < limits_.size(); ++i) all.push_back({static_cast<int>(i), 0});
     return all;
   }
-  bool IsOfRate(const Constraint& limit) const override { return Of(limit).of_rate; }
-  double Value(const Constraint& limit, const Eigen::VectorXd& x) const override {
+  bool IsOfRate(const Limit& limit) const override { return Of(limit).of_rate; }
+  double Value(const Limit& limit, const Eigen::VectorXd& x) const override {
     return Of(limit).of(At(x, Eigen::VectorXd::Zero(unknowns_))).value;
   }
-  Eigen::VectorXd Gradient(const Constraint& limit, const Eigen::VectorXd& x) const override {
+  Eigen::VectorXd Gradient(const Limit& limit, const Eigen::VectorXd& x) const override {
     Eigen::VectorXd gradient(unknowns_);
     for (Eigen::Index i = 0; i < unknowns_; ++i)
       gradient[i] = Of(limit).of(At(x, Eigen::VectorXd::Unit(unknowns_, i))).first;
     return gradient;
   }
-  Jet ValueAlong(const Constraint& limit, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+  Jet ValueAlong(const Limit& limit, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                  const Eigen::VectorXd& second) const override {
     const Along along = Of(limit).of(At(x, first));
     return {along.value, along.first, along.second + Gradient(limit, x).dot(second)};
   }
-  double RoundingOf(const Constraint& /*limit*/, double /*of_forces*/) const override { return tolerances::kResidual; }
+  double RoundingOf(const Limit& /*limit*/, double /*of_forces*/) const override { return tolerances::kResidual; }
   bool Hold(const Eigen::VectorXd& /*x*/, const Eigen::VectorXd& residual) const override {
     return residual.lpNorm<Eigen::Infinity>() <= tolerances::kResidual;
   }
@@ -98,11 +98,11 @@ class ToyEquations : public ArcEquations {
     for (std::size_t i = 0; i < values.size(); ++i) column[static_cast<Eigen::Index>(i)] = values[i].*part;
     return column;
   }
-  const Limit& Of(const Constraint& limit) const { return limits_[static_cast<std::size_t>(limit.contact)]; }
+  const Watched& Of(const Limit& limit) const { return limits_[static_cast<std::size_t>(limit.law)]; }
 
   const Eigen::Index unknowns_;
   const std::function<Unknowns(const Unknowns&)> F_;
-  const std::vector<Limit> limits_;
+  const std::vector<Watched> limits_;
   Eigen::SparseMatrix<double> transposed_;
 };
 

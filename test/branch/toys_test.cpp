@@ -69,7 +69,7 @@ ToyEquations Pitchforks(std::size_t n, double difference = 0.0) {
           }};
 }
 // x = s, with limits.
-ToyEquations Line(std::vector<ToyEquations::Limit> limits) {
+ToyEquations Line(std::vector<ToyEquations::Watched> limits) {
   return {2, [](const Unknowns& x) { return Unknowns{x[0] - x[1]}; }, std::move(limits)};
 }
 
@@ -195,7 +195,7 @@ TEST(Toys, ALimitThatGrazesZero) {
 }
 
 TEST(Toys, ALimitThatIsZeroAtTheStart) {
-  const ToyEquations::Limit left = {[](const Unknowns& x) { return x[0]; }};
+  const ToyEquations::Watched left = {[](const Unknowns& x) { return x[0]; }};
   Walk leaves(Line({left}), Vector2d(0.0, 0.0), Vector2d(1.0, 1.0));
   EXPECT_EQ(leaves.ToEvent(3).event.Kind(), EventKind::kNone);
   Walk breaks(Line({left}), Vector2d(0.0, 0.0), Vector2d(-1.0, -1.0));
@@ -267,12 +267,14 @@ TEST(Toys, TheSignOfTheDeterminantIsThatOfSigmaRandom) {
   for (unsigned seed = 1; seed <= Seeds(300); ++seed) {
     const TracedPath path = TraceIncrements(RandomRequest(seed));
     const Model model(path.request.scene, CharacteristicScales(path.request.scene));
-    FixedStateSystem system(model.structure, model.contacts);
+    FixedModeSystem system(model.structure, model.laws);
     for (std::size_t i = 1; i < path.increments.size(); ++i) {
       if (path.increments[i].kind != IncrementKind::kRegular || path.increments[i].solve.determinant_sign == 0)
         continue;
       const PathPoint from = model.FromIncrement(path.increments[i - 1]), to = model.FromIncrement(path.increments[i]);
-      system.SetStatesFrom(from, to.states);
+      PathPoint begin = from;
+      TakeStates(to.modes, &begin);
+      system.SetModesFrom(begin);
       const VectorXd chord = Chord(from, to).normalized();
       BorderedJacobian at(&system, chord);
       const VectorXd x = system.Pack(to);

@@ -161,13 +161,13 @@ TEST(CurvedResiduals, ObstaclesMayTurn) {
       if (!contacts[0]->HasPatch(patch)) continue;
       CheckedState state = StateAt(u[0], u[1], s);
       EXPECT_NEAR(check.Gap(0, state), contacts[0]->Gap(u, s, patch), kRounding);
-      Kinematics at;
-      contacts[0]->Evaluate(u, s, patch, 0.0, &at);
+      PortsAt at;
+      contacts[0]->Evaluate(u, s, patch, {}, &at);
       const std::array<double, 2> normal = check.Normal(0, state);
-      EXPECT_NEAR(std::hypot(normal[0] - at.gap_gradient[0], normal[1] - at.gap_gradient[1]), 0.0, 1e-11);
+      EXPECT_NEAR(std::hypot(normal[0] - at[kNormal].gradient[0], normal[1] - at[kNormal].gradient[1]), 0.0, 1e-11);
       // The obstacle pushes with the opposite of the reaction's power.
       state.rn = {2.0};
-      EXPECT_NEAR(check.DrivingForce(state), -2.0 * at.gap_gradient[2], 1e-11);
+      EXPECT_NEAR(check.DrivingForce(state), -2.0 * at[kNormal].gradient[2], 1e-11);
     }
   }
 }

@@ -22,10 +22,10 @@ constexpr double kRn = 0.7, kRt = -0.4;
 
 // The reactions of a contact on all dofs, which are x and y of nodes in turn: the sum of the forces, and of their
 // moments about the origin.
-void ExpectBalance(const Kinematics& at, const Eigen::VectorXd& u) {
+void ExpectBalance(const PortsAt& at, const Eigen::VectorXd& u) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
-  at.AddForce(at.gap_gradient, kRn, &force);
-  at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
+  at.AddForce(at[kNormal].gradient, kRn, &force);
+  at.AddForce(at[kTangent].gradient, kRt * at[kTangent].factor, &force);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double moment = 0.0;
   for (Eigen::Index k = 0; k < force.size(); k += 2) {
@@ -58,20 +58,20 @@ class DeformablePairs : public testing::Test {
           }
         }
   }
-  static Kinematics At(const Case& of, const Eigen::VectorXd& u) {
+  static PortsAt At(const Case& of, const Eigen::VectorXd& u) {
     return KinematicsAt(*of.contact.pair, u, 0.0, of.patch);
   }
   // u with the entries q of the pair.
   static Eigen::VectorXd Moved(const Case& of, const Eigen::VectorXd& q) {
     Eigen::VectorXd u = of.contact.u;
-    const PairDofs dofs = of.contact.pair->Dofs(of.patch);
+    const LawDofs dofs = of.contact.pair->Dofs(of.patch);
     for (std::size_t k = 0; k < dofs.size(); ++k) u[dofs[k]] = q[static_cast<Eigen::Index>(k)];
     return u;
   }
   static Eigen::VectorXd Start(const Case& of) { return LocalOf(of.contact.pair->Dofs(of.patch), of.contact.u, 0.0); }
   // r_n grad u_n + r_t c grad xi.
-  static PairVector Force(const Kinematics& at) {
-    return kRn * at.gap_gradient + kRt * at.slip_factor * at.xi_gradient;
+  static LawVector Force(const PortsAt& at) {
+    return kRn * at[kNormal].gradient + kRt * at[kTangent].factor * at[kTangent].gradient;
   }
 
   Random random_{3};
@@ -80,33 +80,33 @@ class DeformablePairs : public testing::Test {
 
 TEST_F(DeformablePairs, GradientsMeetDifferences) {
   for (const Case& of : cases_) {
-    const Kinematics at = At(of, of.contact.u);
+    const PortsAt at = At(of, of.contact.u);
     const auto values = [&](const Eigen::VectorXd& q) {
-      const Kinematics moved = At(of, Moved(of, q));
-      return Eigen::Vector3d(moved.gap, moved.xi, moved.slip_factor);
+      const PortsAt moved = At(of, Moved(of, q));
+      return Eigen::Vector3d(moved[kNormal].motion, moved[kTangent].motion, moved[kTangent].factor);
     };
-    Eigen::MatrixXd gradients(3, at.gap_gradient.size());
-    gradients << at.gap_gradient.transpose(), at.xi_gradient.transpose(), at.slip_factor_gradient.transpose();
+    Eigen::MatrixXd gradients(3, at[kNormal].gradient.size());
+    gradients << at[kNormal].gradient.transpose(), at[kTangent].gradient.transpose(), at[kTangent].factor_gradient.transpose();
     EXPECT_TRUE(IsJacobian(values, Start(of), gradients, kDerivativeTolerance, 1e-3)) << of.name;
-    EXPECT_NEAR(of.contact.pair->Gap(of.contact.u, 0.0, of.patch), at.gap, kRounding);
-    EXPECT_NEAR(at.gap, 0.12, 1e-2) << of.name;
-    EXPECT_LE(at.gap_gradient.norm(), of.contact.pair->LargestGapRate());
+    EXPECT_NEAR(of.contact.pair->Gap(of.contact.u, 0.0, of.patch), at[kNormal].motion, kRounding);
+    EXPECT_NEAR(at[kNormal].motion, 0.12, 1e-2) << of.name;
+    EXPECT_LE(at[kNormal].gradient.norm(), of.contact.pair->LargestReachRate());
   }
 }
 
 TEST_F(DeformablePairs, HessiansMeetDifferences) {
   for (const Case& of : cases_) {
-    const Kinematics at = At(of, of.contact.u);
-    const auto of_gap = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q)).gap_gradient); };
-    const auto of_xi = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q)).xi_gradient); };
-    EXPECT_TRUE(IsJacobian(of_gap, Start(of), at.gap_hessian, kDerivativeTolerance, 1e-3)) << of.name;
-    EXPECT_TRUE(IsJacobian(of_xi, Start(of), at.xi_hessian, kDerivativeTolerance, 1e-3)) << of.name;
+    const PortsAt at = At(of, of.contact.u);
+    const auto of_gap = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q))[kNormal].gradient); };
+    const auto of_xi = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q))[kTangent].gradient); };
+    EXPECT_TRUE(IsJacobian(of_gap, Start(of), at[kNormal].hessian, kDerivativeTolerance, 1e-3)) << of.name;
+    EXPECT_TRUE(IsJacobian(of_xi, Start(of), at[kTangent].hessian, kDerivativeTolerance, 1e-3)) << of.name;
   }
 }
 
 TEST_F(DeformablePairs, ChangesOfTheForceMeetDifferences) {
   for (const Case& of : cases_) {
-    const Kinematics at = At(of, of.contact.u);
+    const PortsAt at = At(of, of.contact.u);
     const auto force = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(Force(At(of, Moved(of, q)))); };
     const Eigen::MatrixXd change = at.ForceChange(kRn, kRt).transpose();
     EXPECT_TRUE(IsJacobian(force, Start(of), change, kDerivativeTolerance, 1e-3)) << of.name;
@@ -116,33 +116,33 @@ TEST_F(DeformablePairs, ChangesOfTheForceMeetDifferences) {
 TEST_F(DeformablePairs, SecondDerivativesOfTheForceMeetDifferences) {
   for (const Case& of : cases_) {
     const DeformablePair& pair = *of.contact.pair;
-    const PairVector direction = random_.Vector(Start(of).size(), -1.0, 1.0);
+    const LawVector direction = random_.Vector(Start(of).size(), -1.0, 1.0);
     const auto along = [&](const Eigen::VectorXd& h) {
-      const Kinematics at = At(of, Moved(of, Start(of) + h[0] * direction));
+      const PortsAt at = At(of, Moved(of, Start(of) + h[0] * direction));
       return Eigen::VectorXd(at.ForceChange(kRn, kRt).transpose() * direction);
     };
-    const PairVector second = pair.SecondDirectional(of.contact.u, 0.0, of.patch, kRn, kRt, direction);
+    const LawVector second = pair.SecondDirectional(of.contact.u, 0.0, of.patch, {kRn, kRt}, direction);
     EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), second, kDerivativeTolerance, 1e-3)) << of.name;
     const auto weighted = [&](const Eigen::VectorXd& q) {
       return Eigen::VectorXd(At(of, Moved(of, q)).ForceChange(kRn, kRt) * direction);
     };
-    PairMatrix hessian;
-    pair.ForceHessian(of.contact.u, 0.0, of.patch, kRn, kRt, direction, &hessian);
+    LawMatrix hessian;
+    pair.ForceHessian(of.contact.u, 0.0, of.patch, {kRn, kRt}, direction, &hessian);
     EXPECT_TRUE(IsJacobian(weighted, Start(of), hessian, kDerivativeTolerance, 1e-3)) << of.name;
   }
 }
 
 TEST_F(DeformablePairs, SlipFactorAlongACurveMeetsDifferences) {
   for (const Case& of : cases_) {
-    const PairVector first = random_.Vector(Start(of).size(), -0.5, 0.5);
-    const PairVector second = random_.Vector(Start(of).size(), -0.5, 0.5);
+    const LawVector first = random_.Vector(Start(of).size(), -0.5, 0.5);
+    const LawVector second = random_.Vector(Start(of).size(), -0.5, 0.5);
     const auto on_curve = [&](double h) { return Moved(of, Start(of) + h * first + 0.5 * h * h * second); };
     const auto rate = [&](const Eigen::VectorXd& h) {
-      const Kinematics at = At(of, on_curve(h[0]));
-      return Eigen::Vector2d(at.slip_factor, at.slip_factor_gradient.dot(first + h[0] * second));
+      const PortsAt at = At(of, on_curve(h[0]));
+      return Eigen::Vector2d(at[kTangent].factor, at[kTangent].factor_gradient.dot(first + h[0] * second));
     };
-    const Eigen::Vector3d along = of.contact.pair->SlipFactorAlong(of.contact.u, 0.0, of.patch, first, second);
-    EXPECT_NEAR(along[0], At(of, of.contact.u).slip_factor, kRounding);
+    const Eigen::Vector3d along = of.contact.pair->FactorAlong(kTangent, of.contact.u, 0.0, of.patch, first, second);
+    EXPECT_NEAR(along[0], At(of, of.contact.u)[kTangent].factor, kRounding);
     EXPECT_TRUE(IsJacobian(rate, Eigen::VectorXd::Zero(1), along.tail<2>(), kDerivativeTolerance, 1e-3)) << of.name;
   }
 }
@@ -159,12 +159,12 @@ TEST_F(DeformablePairs, ForcesAndMomentsBalance) {
 TEST_F(DeformablePairs, OnTheSurfaceTheForceOnTheNodeIsTheReaction) {
   for (Case& of : cases_) {
     of.contact.PutBeside(of.patch, 0.6, 0.0);
-    const Kinematics at = At(of, of.contact.u);
+    const PortsAt at = At(of, of.contact.u);
     Eigen::VectorXd force = Eigen::VectorXd::Zero(of.contact.u.size());
-    at.AddForce(at.gap_gradient, kRn, &force);
-    at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
+    at.AddForce(at[kNormal].gradient, kRn, &force);
+    at.AddForce(at[kTangent].gradient, kRt * at[kTangent].factor, &force);
     const Eigen::Vector2d n = of.contact.Shape().Project(of.contact.u.tail<2>(), of.patch).normal;
-    EXPECT_NEAR(at.gap, 0.0, kRounding);
+    EXPECT_NEAR(at[kNormal].motion, 0.0, kRounding);
     EXPECT_LE((force.tail<2>() - kRn * n - kRt * TangentOf(n)).norm(), kRounding) << of.name;
   }
 }
@@ -175,21 +175,21 @@ TEST_F(DeformablePairs, GoesOnFromPatchToPatch) {
     if (!of.contact.pair->HasPatch(of.patch + 1)) continue;
     DeformableContact contact(5, of.contact.boundary->Spline().Closed(), 0.0);
     contact.PutBeside(of.patch, 1.0, 0.1);
-    Kinematics before = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch);
-    Kinematics after = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch + 1);
-    EXPECT_NEAR(before.xi, contact.pair->RangeOf(of.patch).end, kRounding);
-    EXPECT_NEAR(after.xi, contact.pair->RangeOf(of.patch + 1).begin, kRounding);
-    EXPECT_NEAR(before.gap, after.gap, kRounding);
-    EXPECT_NEAR(before.slip_factor, after.slip_factor, kRounding);
+    PortsAt before = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch);
+    PortsAt after = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch + 1);
+    EXPECT_NEAR(before[kTangent].motion, contact.pair->RangeOf(of.patch).end, kRounding);
+    EXPECT_NEAR(after[kTangent].motion, contact.pair->RangeOf(of.patch + 1).begin, kRounding);
+    EXPECT_NEAR(before[kNormal].motion, after[kNormal].motion, kRounding);
+    EXPECT_NEAR(before[kTangent].factor, after[kTangent].factor, kRounding);
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(contact.u.size());
-    before.AddForce(before.gap_gradient, kRn, &forces);
-    after.AddForce(after.gap_gradient, -kRn, &forces);
+    before.AddForce(before[kNormal].gradient, kRn, &forces);
+    after.AddForce(after[kNormal].gradient, -kRn, &forces);
     EXPECT_LE(forces.norm(), kRounding) << of.name;
     contact.PutBeside(of.patch, 1.0, 0.0);
     before = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch);
     after = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch + 1);
-    before.AddForce(before.xi_gradient, kRt, &forces);
-    after.AddForce(after.xi_gradient, -kRt, &forces);
+    before.AddForce(before[kTangent].gradient, kRt, &forces);
+    after.AddForce(after[kTangent].gradient, -kRt, &forces);
     EXPECT_LE(forces.norm(), kRounding) << of.name;
   }
 }
@@ -217,10 +217,10 @@ TEST(DeformablePair, OnAStraightLineSlipsByTheLengthOfWhatItPasses) {
   EXPECT_EQ(pair.PatchAt(from, 0.0), 1);
   EXPECT_NEAR(pair.Gap(from, 0.0, 1), 0.0, kRounding);
   EXPECT_NEAR(pair.Xi(from, 0.0, 1), 0.6, kRounding);
-  EXPECT_NEAR(pair.Slip(from, 0.0, 1, to - from, 0.0, 1), 0.5, kRounding);
-  EXPECT_NEAR(pair.SlipRate(from, 0.0, 1, Eigen::Vector3d(0.0, 1.0, 0.0), 0.0), 1.0, kRounding);
+  EXPECT_NEAR(pair.Travel(kTangent, from, 0.0, 1, to - from, 0.0, 1), 0.5, kRounding);
+  EXPECT_NEAR(pair.TravelRate(kTangent, from, 0.0, 1, Eigen::Vector3d(0.0, 1.0, 0.0), 0.0), 1.0, kRounding);
   // The line alone is stretched, and the node does not slide along where the material goes as fast.
-  EXPECT_NEAR(pair.SlipRate(from, 0.0, 1, Eigen::Vector3d(1.0, 0.6, 0.0), 0.0), 0.0, kRounding);
+  EXPECT_NEAR(pair.TravelRate(kTangent, from, 0.0, 1, Eigen::Vector3d(1.0, 0.6, 0.0), 0.0), 0.0, kRounding);
 }
 
 // From xi to xi on the surface at u, in chords.
@@ -258,8 +258,8 @@ TEST(DeformablePair, OverSeveralBentPatchesSlipsByTheMeanLengthOnBothShapes) {
       const double length = 0.5 * (LengthInChords(*contact.boundary, from, xi_from, xi_to) +
                                    LengthInChords(*contact.boundary, to, xi_from, xi_to));
       EXPECT_GT(length, 1.0);
-      EXPECT_NEAR(pair.Slip(from, 0.0, 1, to - from, 0.0, 3), length, kOfChords) << closed << radius;
-      EXPECT_NEAR(pair.Slip(to, 0.0, 3, from - to, 0.0, 1), -length, kOfChords) << closed << radius;
+      EXPECT_NEAR(pair.Travel(kTangent, from, 0.0, 1, to - from, 0.0, 3), length, kOfChords) << closed << radius;
+      EXPECT_NEAR(pair.Travel(kTangent, to, 0.0, 3, from - to, 0.0, 1), -length, kOfChords) << closed << radius;
     }
 }
 
@@ -272,7 +272,7 @@ TEST(DeformablePair, PastAnEndSlipsFromAndToTheEnd) {
     return contact.u;
   };
   const auto slip = [&](double from, int patch, double to, int patch_after) {
-    return contact.pair->Slip(at(from), 0.0, patch, at(to) - at(from), 0.0, patch_after);
+    return contact.pair->Travel(kTangent, at(from), 0.0, patch, at(to) - at(from), 0.0, patch_after);
   };
   EXPECT_NEAR(slip(-0.1, -1, 0.2, 0), 0.2, kRounding);
   EXPECT_NEAR(slip(0.2, 0, -0.1, -1), -0.2, kRounding);
@@ -421,8 +421,8 @@ TEST(DeformablePairOfItsOwnBoundary, SlipsFromTheEndBesideItself) {
     EXPECT_EQ(own.pair->PatchAt(to, 0.0), patch);
     // The node is not one of those that carry what is walked on.
     const double length = LengthInChords(boundary, own.u, end, xi);
-    EXPECT_NEAR(own.pair->Slip(from, 0.0, past, to - from, 0.0, patch), length, kOfChords);
-    EXPECT_NEAR(own.pair->Slip(to, 0.0, patch, from - to, 0.0, past), -length, kOfChords);
+    EXPECT_NEAR(own.pair->Travel(kTangent, from, 0.0, past, to - from, 0.0, patch), length, kOfChords);
+    EXPECT_NEAR(own.pair->Travel(kTangent, to, 0.0, patch, from - to, 0.0, past), -length, kOfChords);
   }
 }
 
@@ -431,16 +431,16 @@ TEST(DeformablePairOfItsOwnBoundary, HasForcesThatBalance) {
   const Eigen::VectorXd u = own.Flattened(0.1, 0.02);
   const int patch = own.pair->PatchAt(u, 0.0);
   ASSERT_TRUE(own.pair->HasPatch(patch));
-  const Kinematics at = KinematicsAt(*own.pair, u, 0.0, patch);
+  const PortsAt at = KinematicsAt(*own.pair, u, 0.0, patch);
   EXPECT_EQ(at.dofs.size(), 8u);
   const auto values = [&](const Eigen::VectorXd& moved) {
-    const Kinematics after = KinematicsAt(*own.pair, moved, 0.0, patch);
-    return Eigen::Vector2d(after.gap, after.xi);
+    const PortsAt after = KinematicsAt(*own.pair, moved, 0.0, patch);
+    return Eigen::Vector2d(after[kNormal].motion, after[kTangent].motion);
   };
   Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(2, u.size());
   for (std::size_t k = 0; k < at.dofs.size(); ++k) {
-    gradients(0, at.dofs[k]) = at.gap_gradient[static_cast<Eigen::Index>(k)];
-    gradients(1, at.dofs[k]) = at.xi_gradient[static_cast<Eigen::Index>(k)];
+    gradients(0, at.dofs[k]) = at[kNormal].gradient[static_cast<Eigen::Index>(k)];
+    gradients(1, at.dofs[k]) = at[kTangent].gradient[static_cast<Eigen::Index>(k)];
   }
   EXPECT_TRUE(IsJacobian(values, u, gradients, kDerivativeTolerance, 1e-3));
   ExpectBalance(at, u);

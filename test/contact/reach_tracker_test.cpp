@@ -1,4 +1,4 @@
-#include "contact_path/contact/reach_tracker.h"
+#include "contact_path/law/reach_tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 std::vector<std::size_t> LookedAtAll(const ContactPairs& contacts, const Eigen::VectorXd& u, double s, double reach) {
   std::vector<std::size_t> in_reach;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (contacts[i]->Gap(u, s, 0) <= reach * contacts[i]->LargestGapRate()) in_reach.push_back(i);
+    if (contacts[i]->Gap(u, s, 0) <= reach * contacts[i]->LargestReachRate()) in_reach.push_back(i);
   return in_reach;
 }
 
@@ -25,7 +25,8 @@ TEST(ReachTracker, FindsWhatALookAtAllFinds) {
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
   Random random(3);
-  ReachTracker tracker(contacts);
+  const Laws laws = LawsOf(contacts);
+  ReachTracker tracker(laws);
   const Eigen::VectorXd start = structure.Start();
   Eigen::VectorXd u = start;
   double s = 0.0;
@@ -49,9 +50,9 @@ class Counted : public ContactPair {
   Counted(double gap, int* looks) : gap_(gap), looks_(looks) {
     Traits traits;
     traits.dofs = {0};
-    SetTraits(traits);
+    SetContact(traits, {});
   }
-  void Evaluate(const Eigen::VectorXd&, double, int, double, Kinematics*) const override {}
+  void Evaluate(const Eigen::VectorXd&, double, int, const PortReals&, PortsAt*) const override {}
   double Gap(const Eigen::VectorXd& u, double, int) const override { return gap_ + u[0]; }
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override {
     ++*looks_;
@@ -61,8 +62,6 @@ class Counted : public ContactPair {
   int PatchAfter(const Eigen::VectorXd&, double, int) const override { return 0; }
   bool HasPatch(int patch) const override { return patch == 0; }
   XiRange RangeOf(int) const override { return {}; }
-  void ForceHessian(const Eigen::VectorXd&, double, int, double, double, const PairVector&,
-                    PairMatrix*) const override {}
 
  private:
   double gap_;
@@ -74,7 +73,8 @@ TEST(ReachTracker, LooksSeldomAtWhatIsFar) {
   int near_looks = 0, far_looks = 0;
   contacts.push_back(std::make_unique<Counted>(0.055, &near_looks));
   for (int i = 0; i < 100; ++i) contacts.push_back(std::make_unique<Counted>(1.0, &far_looks));
-  ReachTracker tracker(contacts);
+  const Laws laws = LawsOf(contacts);
+  ReachTracker tracker(laws);
   for (int i = 0; i < 90; ++i) {
     const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, -0.01 * i);
     EXPECT_EQ(tracker.InReach(u, 0.0, 0.02).size(), i >= 4 ? 1u : 0u) << i;

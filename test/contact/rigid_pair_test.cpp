@@ -56,12 +56,12 @@ class RigidPairs : public testing::Test {
   Eigen::VectorXd At(const ContactPair& pair, const Eigen::VectorXd& q) const {
     Eigen::VectorXd x(structure_.NumDofs() + 1);
     x << structure_.Start(), 0.0;
-    const PairDofs dofs = pair.Dofs(0);
+    const LawDofs dofs = pair.Dofs(0);
     for (std::size_t k = 0; k < dofs.size(); ++k) x[dofs[k]] = q[static_cast<Eigen::Index>(k)];
     x[structure_.NumDofs()] = q[q.size() - 1];
     return x;
   }
-  Kinematics Evaluate(const Case& of, const Eigen::VectorXd& q) const {
+  PortsAt Evaluate(const Case& of, const Eigen::VectorXd& q) const {
     const Eigen::VectorXd x = At(*of.pair, q);
     return KinematicsAt(*of.pair, x, x[structure_.NumDofs()], of.patch);
   }
@@ -77,34 +77,34 @@ class RigidPairs : public testing::Test {
 TEST_F(RigidPairs, GradientsMeetDifferencesAndTheirSparsityIsDeclared) {
   for (const Case& of : cases_) {
     const ContactPair& pair = *of.pair;
-    const Kinematics at = Evaluate(of, of.q);
+    const PortsAt at = Evaluate(of, of.q);
     const auto values = [&](const Eigen::VectorXd& to) {
-      const Kinematics kinematics = Evaluate(of, to);
-      return Eigen::Vector2d(kinematics.gap, kinematics.xi);
+      const PortsAt kinematics = Evaluate(of, to);
+      return Eigen::Vector2d(kinematics[kNormal].motion, kinematics[kTangent].motion);
     };
     Eigen::MatrixXd gradients(2, of.q.size());
-    gradients << at.gap_gradient.transpose(), at.xi_gradient.transpose();
+    gradients << at[kNormal].gradient.transpose(), at[kTangent].gradient.transpose();
     EXPECT_TRUE(IsJacobian(values, of.q, gradients, kDerivativeTolerance, 1e-3));
     for (std::size_t k = 0; k <= at.dofs.size(); ++k) {
-      EXPECT_EQ(pair.MovesGap(k), at.gap_gradient[static_cast<Eigen::Index>(k)] != 0.0);
-      EXPECT_EQ(pair.MovesXi(k), at.xi_gradient[static_cast<Eigen::Index>(k)] != 0.0);
+      EXPECT_EQ(pair.Moves(kNormal, k), at[kNormal].gradient[static_cast<Eigen::Index>(k)] != 0.0);
+      EXPECT_EQ(pair.Moves(kTangent, k), at[kTangent].gradient[static_cast<Eigen::Index>(k)] != 0.0);
     }
     const Eigen::VectorXd x = At(pair, of.q);
     if (pair.HasPatch(of.patch)) {
-      EXPECT_NEAR(pair.Gap(x, 0.3, of.patch), at.gap, kRounding);
+      EXPECT_NEAR(pair.Gap(x, 0.3, of.patch), at[kNormal].motion, kRounding);
     }
-    EXPECT_LE(at.gap_gradient.norm(), pair.LargestGapRate());
+    EXPECT_LE(at[kNormal].gradient.norm(), pair.LargestReachRate());
   }
 }
 
 TEST_F(RigidPairs, HessiansMeetDifferences) {
   for (const Case& of : cases_) {
     if (!of.pair->Curved()) continue;
-    const Kinematics at = Evaluate(of, of.q);
-    const auto of_gap = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(of, to).gap_gradient); };
-    const auto of_xi = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(of, to).xi_gradient); };
-    EXPECT_TRUE(IsJacobian(of_gap, of.q, at.gap_hessian, kDerivativeTolerance, 1e-3));
-    EXPECT_TRUE(IsJacobian(of_xi, of.q, at.xi_hessian, kDerivativeTolerance, 1e-3));
+    const PortsAt at = Evaluate(of, of.q);
+    const auto of_gap = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(of, to)[kNormal].gradient); };
+    const auto of_xi = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(of, to)[kTangent].gradient); };
+    EXPECT_TRUE(IsJacobian(of_gap, of.q, at[kNormal].hessian, kDerivativeTolerance, 1e-3));
+    EXPECT_TRUE(IsJacobian(of_xi, of.q, at[kTangent].hessian, kDerivativeTolerance, 1e-3));
   }
 }
 
@@ -113,13 +113,13 @@ TEST_F(RigidPairs, DerivativesOfHessiansMeetDifferences) {
   for (const Case& of : cases_) {
     if (!of.pair->Curved()) continue;
     const Eigen::VectorXd x = At(*of.pair, of.q);
-    const PairVector direction = random_.Vector(of.q.size(), -1.0, 1.0);
+    const LawVector direction = random_.Vector(of.q.size(), -1.0, 1.0);
     const auto hessian = [&](const Eigen::VectorXd& h) {
-      const Kinematics at = Evaluate(of, of.q + h[0] * direction);
-      return Entries(kRn * at.gap_hessian + kRt * at.xi_hessian);
+      const PortsAt at = Evaluate(of, of.q + h[0] * direction);
+      return Entries(kRn * at[kNormal].hessian + kRt * at[kTangent].hessian);
     };
-    PairMatrix derivative;
-    of.pair->ForceHessian(x, 0.3, of.patch, kRn, kRt, direction, &derivative);
+    LawMatrix derivative;
+    of.pair->ForceHessian(x, 0.3, of.patch, {kRn, kRt}, direction, &derivative);
     EXPECT_TRUE(IsJacobian(hessian, Eigen::VectorXd::Zero(1), Entries(derivative), kDerivativeTolerance, 1e-3));
   }
 }
@@ -166,7 +166,7 @@ TEST_F(RigidPairs, SlipRunsOnOverPatches) {
   const RigidPair pair(line, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
   const Eigen::VectorXd from = Eigen::Vector2d(0.2, 0.0), to = Eigen::Vector2d(2.0, 0.5);
   const double turn = std::atan(0.5), cut = 0.2 * std::tan(0.5 * turn);
-  EXPECT_NEAR(pair.Slip(from, 0.0, 0, to - from, 0.0, 2), 0.8 + std::hypot(1.0, 0.5) - 2.0 * cut + 0.2 * turn,
+  EXPECT_NEAR(pair.Travel(kTangent, from, 0.0, 0, to - from, 0.0, 2), 0.8 + std::hypot(1.0, 0.5) - 2.0 * cut + 0.2 * turn,
               kRounding);
 }
 
@@ -177,9 +177,9 @@ TEST(RigidPair, OfADiscHasTheClosedForm) {
   const Eigen::VectorXd top = Eigen::Vector2d(1.0, 2.75), right = Eigen::Vector2d(1.75, 2.0);
   EXPECT_NEAR(pair.Gap(top, 0.0, 0), 0.25, kRounding);
   EXPECT_NEAR(pair.Gap(right, 0.0, 0), 0.25, kRounding);
-  EXPECT_NEAR(pair.Slip(top, 0.0, 0, right - top, 0.0, 0), 0.5 * std::acos(-1.0) / 2.0, kRounding);
+  EXPECT_NEAR(pair.Travel(kTangent, top, 0.0, 0, right - top, 0.0, 0), 0.5 * std::acos(-1.0) / 2.0, kRounding);
   // The foot moves slower than the node, by the ratio of the radii.
-  EXPECT_NEAR(pair.SlipRate(top, 0.0, 0, Eigen::Vector2d(1.0, 0.0), 0.0), 0.5 / 0.75, kRounding);
+  EXPECT_NEAR(pair.TravelRate(kTangent, top, 0.0, 0, Eigen::Vector2d(1.0, 0.0), 0.0), 0.5 / 0.75, kRounding);
 }
 
 // Twice round a circle, one way and the other: xi grows by the way along it.
@@ -201,10 +201,10 @@ TEST(RigidPair, PatchesGoRoundAClosedSurface) {
 TEST(RigidPair, XiIsMeasuredFromTheReference) {
   const RigidPair pair(std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(0.0, 2.0)),
                        {{0, -1}, {7.0, 1.25}, Eigen::Vector2d::Zero()}, 0.3);
-  Kinematics at;
-  pair.Evaluate(Eigen::VectorXd::Constant(1, 3.0), 0.0, 0, 2.5, &at);
-  EXPECT_EQ(at.xi, 0.5);
-  EXPECT_EQ(at.gap, 0.25);
+  PortsAt at;
+  pair.Evaluate(Eigen::VectorXd::Constant(1, 3.0), 0.0, 0, {0.0, 2.5}, &at);
+  EXPECT_EQ(at[kTangent].motion, 0.5);
+  EXPECT_EQ(at[kNormal].motion, 0.25);
   EXPECT_EQ(std::vector<int>(at.dofs.begin(), at.dofs.end()), std::vector<int>{0});
 }
 

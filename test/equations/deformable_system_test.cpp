@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "contact_path/contact/scene_contacts.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
+#include "support/contact_points.h"
 #include "support/deformable_scene.h"
 #include "support/derivative_checker.h"
 #include "support/random.h"
@@ -26,7 +27,8 @@ class DeformableSystem : public testing::Test {
   const Scene scene_ = DeformableScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = BuildContacts(scene_, structure_);
-  FixedStateSystem system_{structure_, contacts_};
+  const Laws laws_ = LawsOf(contacts_);
+  FixedModeSystem system_{structure_, laws_};
   Random random_{11};
 };
 
@@ -34,8 +36,8 @@ TEST_F(DeformableSystem, DerivativesMeetDifferencesInEveryStateOnEveryPatch) {
   for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus})
     for (const int patch : {0, 1, 2, 3, 4})
       for (const bool active : {false, true}) {
-        system_.SetStates({state, State::kClosed}, random_.Vector(2, -0.3, 0.3), {patch, 4 - patch});
-        if (active) system_.SetActive(system_.Inequalities());
+        system_.SetModes(ModesOf({state, State::kClosed}, {patch, 4 - patch}), ByPort(random_.Vector(2, -0.3, 0.3)));
+        if (active) system_.SetActive(system_.Limits());
         const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
         const auto residual = [&](const Eigen::VectorXd& at) {
           Eigen::VectorXd value;
@@ -54,12 +56,12 @@ TEST_F(DeformableSystem, DerivativesMeetDifferencesInEveryStateOnEveryPatch) {
 }
 
 TEST_F(DeformableSystem, ValuesAlongACurveMeetDifferences) {
-  system_.SetStates({State::kSlipPlus, State::kClosed}, random_.Vector(2, -0.3, 0.3), {2, 3});
+  system_.SetModes(ModesOf({State::kSlipPlus, State::kClosed}, {2, 3}), ByPort(random_.Vector(2, -0.3, 0.3)));
   const Eigen::VectorXd x = RandomUnknowns(), first = random_.Vector(system_.NumUnknowns(), -1.0, 1.0),
                         second = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
   const auto on_curve = [&](double h) { return Eigen::VectorXd(x + h * first + 0.5 * h * h * second); };
   const auto velocity = [&](double h) { return Eigen::VectorXd(first + h * second); };
-  for (const Constraint& constraint : system_.Inequalities()) {
+  for (const Limit& constraint : system_.Limits()) {
     const auto along = [&](const Eigen::VectorXd& h) {
       return Eigen::Vector2d(system_.Value(constraint, on_curve(h[0])),
                              system_.Rate(constraint, on_curve(h[0]), velocity(h[0])));
@@ -69,10 +71,10 @@ TEST_F(DeformableSystem, ValuesAlongACurveMeetDifferences) {
                            kDerivativeTolerance, kStep));
   }
   const auto sliding = [&](const Eigen::VectorXd& h) {
-    const Jet jet = system_.SlidingForceAlong(0, on_curve(h[0]), velocity(h[0]), second);
+    const Jet jet = system_.LeadingForceAlong(0, kTangent, on_curve(h[0]), velocity(h[0]), second);
     return Eigen::Vector2d(jet.value, jet.first);
   };
-  const Jet jet = system_.SlidingForceAlong(0, x, first, second);
+  const Jet jet = system_.LeadingForceAlong(0, kTangent, x, first, second);
   EXPECT_TRUE(IsJacobian(sliding, Eigen::VectorXd::Zero(1), Eigen::Vector2d(jet.first, jet.second),
                          kDerivativeTolerance, kStep));
   // Nothing moves with the load factor but the loads.

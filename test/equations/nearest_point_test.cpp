@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "contact_path/contact/scene_contacts.h"
+#include "support/contact_points.h"
 #include "support/reference_cases.h"
 
 namespace contact_path::nearest_point_test {
@@ -16,21 +17,21 @@ constexpr double kRounding = 1e-12;
 
 class SlidingBarNearest : public testing::Test {
  protected:
-  SlidingBarNearest() { system_.SetStates({ContactState::kSlipPlus}, Eigen::VectorXd::Constant(1, -5.0)); }
+  SlidingBarNearest() { system_.SetModes(ModesOf({ContactState::kSlipPlus}), Eigen::Vector2d(0.0, -5.0)); }
 
   Eigen::VectorXd PackClosedForm(double x) const {
     PathPoint point;
     point.u = Eigen::Vector2d(x, 0.0);
     point.s = sliding_bar::LoadFactor(x);
-    point.rn = Eigen::VectorXd::Constant(1, sliding_bar::NormalReaction(x));
-    point.rt = -sliding_bar::kFriction * point.rn;
+    point.forces = sliding_bar::NormalReaction(x) * Eigen::Vector2d(1.0, -sliding_bar::kFriction);
     return system_.Pack(point);
   }
 
   const Scene scene_ = sliding_bar::MakeScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = BuildContacts(scene_, structure_);
-  FixedStateSystem system_{structure_, contacts_};
+  const Laws laws_ = LawsOf(contacts_);
+  FixedModeSystem system_{structure_, laws_};
 };
 
 TEST_F(SlidingBarNearest, PointOnThePathIsItsOwn) {
@@ -65,8 +66,8 @@ TEST_F(SlidingBarNearest, PinnedLoadFactorIsMet) {
 }
 
 TEST_F(SlidingBarNearest, EquationsThatContradictEachOtherDoNotConverge) {
-  system_.SetStates({ContactState::kStick}, Eigen::VectorXd::Constant(1, -3.0));
-  system_.SetActive({{0, Inequality::kNormalReaction}});  // b held away from rest length without a normal reaction
+  system_.SetModes(ModesOf({ContactState::kStick}), Eigen::Vector2d(0.0, -3.0));
+  system_.SetActive({{0, NumberOf(ContactLimit::kNormalReaction)}});  // b held away from rest length without a normal reaction
   const Eigen::VectorXd start = PackClosedForm(-3.0);
   EXPECT_FALSE(FindNearestPoint(&system_, start, start.head(3)).converged);
 }
@@ -91,13 +92,14 @@ TEST(NearestPoint, RedundantContactsAreNoObstacle) {
   scene.contacts.push_back(scene.contacts[0]);
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
-  FixedStateSystem system(structure, contacts);
-  system.SetStates({ContactState::kSlipPlus, ContactState::kSlipPlus}, Eigen::Vector2d(-5.0, -5.0));
+  const Laws laws = LawsOf(contacts);
+  FixedModeSystem system(structure, laws);
+  system.SetModes(ModesOf({ContactState::kSlipPlus, ContactState::kSlipPlus}), ByPort(Eigen::Vector2d(-5.0, -5.0)));
   PathPoint start;
   start.u = Eigen::Vector2d(-3.0, 0.0);
   start.s = sliding_bar::LoadFactor(-3.0);
-  start.rn = Eigen::Vector2d(sliding_bar::NormalReaction(-3.0), 0.0);
-  start.rt = -sliding_bar::kFriction * start.rn;
+  const Eigen::Vector2d rn(sliding_bar::NormalReaction(-3.0), 0.0);
+  start.forces = ByPort(rn, -sliding_bar::kFriction * rn);
   const NearestPoint nearest = FindNearestPoint(&system, system.Pack(start), Eigen::Vector3d(-2.9, 0.0, start.s));
   ASSERT_TRUE(nearest.converged);
   EXPECT_LT(nearest.rank, system.NumEquations());
@@ -113,8 +115,8 @@ TEST(NearestPoint, RigidModesAreNoObstacle) {
   scene.bars = {{{"p", "q"}, 1.0, 0.0, StrainMeasure::kBiot}};
   scene.loads = {{"p", -1.0, 0.0, false}, {"q", 1.0, 0.0, false}};
   const Structure structure(scene);
-  const ContactPairs contacts;
-  FixedStateSystem system(structure, contacts);
+  const Laws none;
+  FixedModeSystem system(structure, none);
   Eigen::VectorXd start(5), wanted(5);
   start << 0.0, 0.0, 1.0, 0.0, 0.0;
   wanted << 0.3, 0.2, 1.5, 0.2, 0.1;

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/path/model.h"
+#include "support/contact_points.h"
 
 namespace contact_path::rigid_modes_test {
 namespace {
@@ -30,8 +31,8 @@ Scene Triangle(double friction) {
 Eigen::MatrixXd ModesAtStart(const Scene& scene, const std::vector<ContactState>& states) {
   const Model model(scene, Scaling());
   const PathPoint point = model.InitialPoint();
-  FixedStateSystem system(model.structure, model.contacts);
-  system.SetStates(states, SlipReferences(model.contacts, point));
+  FixedModeSystem system(model.structure, model.laws);
+  system.SetModes(ModesOf(states), model.laws.ReferencesAt(point));
   const Eigen::SparseMatrix<double>& transposed = system.TransposedJacobian(system.Pack(point));
   const Eigen::MatrixXd modes = RigidModes(model.structure).At(point.u, transposed);
   EXPECT_LE((transposed.transpose() * modes).norm(), kRounding * transposed.norm());

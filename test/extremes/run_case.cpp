@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/expand.h"
@@ -114,8 +114,8 @@ double AttainableError(const ExtremeCase& extreme) {
     const std::size_t index = path.increments.size() * static_cast<std::size_t>(i) / kSamples;
     if (index >= path.increments.size()) continue;
     const PathPoint point = model.FromIncrement(path.increments[index]);
-    FixedStateSystem system(model.structure, model.contacts);
-    system.SetStates(point.states, SlipReferences(model.contacts, point));
+    FixedModeSystem system(model.structure, model.laws);
+    system.SetModes(point.modes, model.laws.ReferencesAt(point));
     const Eigen::VectorXd x = system.Pack(point);
     const SingularValueDecomposition svd = Decompose(Eigen::MatrixXd(system.TransposedJacobian(x)));
     if (svd.values.size() == 0) continue;

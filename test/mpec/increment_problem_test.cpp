@@ -11,6 +11,7 @@
 #include "contact_path/contact/scene_contacts.h"
 #include "support/curved_contacts.h"
 #include "support/deformable_scene.h"
+#include "support/contact_points.h"
 #include "support/derivative_checker.h"
 #include "support/mixed_scene.h"
 #include "support/random.h"
@@ -74,9 +75,9 @@ class MixedProblem : public testing::TestWithParam<WorkingSet> {
   MixedProblem() {
     from_.u = structure_.Start() + random_.Vector(6, -0.1, 0.1);
     from_.s = 0.3;
-    from_.rn = random_.Vector(6, 0.1, 1.0);
-    from_.rt = random_.Vector(6, -1.0, 1.0);
-    from_.states.assign(6, ContactState::kStick);
+    const Eigen::VectorXd rn = random_.Vector(6, 0.1, 1.0);
+    from_.forces = ByPort(rn, random_.Vector(6, -1.0, 1.0));
+    from_.modes.resize(6);
     goal_.length = 0.2;
     goal_.direction = random_.Vector(7, -1.0, 1.0).normalized();
     goal_.dissipation = 0.3;
@@ -166,9 +167,9 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   PathPoint from;
   from.u = structure.Start() + random.Vector(8, -0.1, 0.1);
   from.s = 0.3;
-  from.rn = random.Vector(6, 0.1, 1.0);
-  from.rt = random.Vector(6, -1.0, 1.0);
-  from.states.assign(6, ContactState::kStick);
+  const Eigen::VectorXd rn = random.Vector(6, 0.1, 1.0);
+  from.forces = ByPort(rn, random.Vector(6, -1.0, 1.0));
+  from.modes.resize(6);
   const IncrementProblem problem(structure, contacts, from, {0, 1, 2, 3, 4, 5},
                                  {0.2, random.Vector(9, -1.0, 1.0).normalized(), 0.3, 1.7});
   EXPECT_EQ(problem.NumVariables(), 9 + 6 + 2 * 4 + 2);
@@ -204,9 +205,9 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
   PathPoint from;
   from.u = structure.Start() + random.Vector(8, -0.02, 0.02);
   from.s = 0.1;
-  from.rn = random.Vector(5, 0.1, 1.0);
-  from.rt = random.Vector(5, -1.0, 1.0);
-  from.states.assign(5, ContactState::kStick);
+  const Eigen::VectorXd rn = random.Vector(5, 0.1, 1.0);
+  from.forces = ByPort(rn, random.Vector(5, -1.0, 1.0));
+  from.modes.resize(5);
   const IncrementProblem problem(structure, contacts, from, {0, 1, 2, 3, 4},
                                  {0.05, random.Vector(9, -1.0, 1.0).normalized(), 0.3, 1.7});
   for (int i = 0; i < 3; ++i) {
@@ -234,10 +235,10 @@ TEST(DeformableProblem, DerivativesMeetDifferences) {
   Random random(12);
   PathPoint from;
   from.u = structure.Start() + random.Vector(9, -0.02, 0.02);
-  from.rn = random.Vector(2, 0.1, 1.0);
-  from.rt = random.Vector(2, -1.0, 1.0);
-  from.states = {ContactState::kStick, ContactState::kClosed};
-  for (const auto& contact : contacts) from.patches.push_back(contact->PatchAt(from.u, from.s));
+  const Eigen::VectorXd rn = random.Vector(2, 0.1, 1.0);
+  from.forces = ByPort(rn, random.Vector(2, -1.0, 1.0));
+  from.modes = ModesOf({ContactState::kStick, ContactState::kClosed},
+                       {contacts[0]->PatchAt(from.u, from.s), contacts[1]->PatchAt(from.u, from.s)});
   std::set<int> patches;
   for (int i = 0; i < 12; ++i) {
     const IncrementProblem problem(structure, contacts, from, {0, 1},
@@ -251,7 +252,7 @@ TEST(DeformableProblem, DerivativesMeetDifferences) {
       return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
     };
     EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers), kDerivativeTolerance, kStep));
-    patches.insert(problem.Point(x).patches[0]);
+    patches.insert(problem.Point(x).modes[0].piece);
   }
   EXPECT_GT(patches.size(), 1u);
 }
@@ -300,12 +301,12 @@ TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   Eigen::Index row = 6;
   for (const int contact : GetParam()) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
-    const double gap = pair.Gap(from_.u, from_.s, 0) / goal_.length, rn = from_.rn[contact] / goal_.length;
+    const double gap = pair.Gap(from_.u, from_.s, 0) / goal_.length, rn = NormalReaction(from_, static_cast<std::size_t>(contact)) / goal_.length;
     EXPECT_NEAR(values[row], gap, 10.0 * kRounding);
     EXPECT_NEAR(values[row + 1], gap * rn, 100.0 * kRounding);
     row += 2;
     if (!pair.Frictional()) continue;
-    const double rt = from_.rt[contact] / goal_.length;
+    const double rt = TangentialReaction(from_, static_cast<std::size_t>(contact)) / goal_.length;
     EXPECT_EQ(values[row], 0.0);
     EXPECT_EQ(values[row + 1], 0.0);
     EXPECT_NEAR(values[row + 2], pair.Friction() * rn - rt, 10.0 * kRounding);
@@ -345,9 +346,8 @@ TEST(MovingProblem, DissipationCountsTheMotionOfTheObstacle) {
   const ContactPairs contacts = BuildContacts(scene, structure);
   PathPoint from;
   from.u = structure.Start();
-  from.rn = Eigen::VectorXd::Constant(1, 1.0);
-  from.rt = Eigen::VectorXd::Constant(1, 0.3);
-  from.states = {ContactState::kSlipMinus};
+  from.forces = Eigen::Vector2d(1.0, 0.3);
+  from.modes = ModesOf({ContactState::kSlipMinus});
   const IncrementProblem problem(structure, contacts, from, {0}, {0.1, Eigen::Vector3d(0.0, 0.0, 1.0), 1.0, 1.0});
   // xi' = u_x' - 2 s': the dissipation grows most along (-1, 0, 2).
   const Eigen::VectorXd wanted = problem.UnconstrainedMinimiser();
@@ -366,8 +366,8 @@ TEST_P(MixedProblem, Gamma2FactorShortensTheMinimiserAndDissipationTurnsItAgains
   for (const int contact : GetParam()) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
     if (!pair.Frictional()) continue;
-    power += from_.rt[contact] * pair.Slip(from_.u, from_.s, 0, against.head(6) - from_.u, 0.0, 0);
-    friction += std::abs(from_.rt[contact]);
+    power += TangentialReaction(from_, static_cast<std::size_t>(contact)) * pair.Travel(kTangent, from_.u, from_.s, 0, against.head(6) - from_.u, 0.0, 0);
+    friction += std::abs(TangentialReaction(from_, static_cast<std::size_t>(contact)));
   }
   if (friction > 0.0) {
     EXPECT_LT(power, 0.0);
@@ -383,9 +383,8 @@ class SlidingBarProblem : public testing::Test {
   SlidingBarProblem() {
     from_.u = Eigen::Vector2d(-3.0, 0.0);
     from_.s = sliding_bar::LoadFactor(-3.0);
-    from_.rn = Eigen::VectorXd::Constant(1, sliding_bar::NormalReaction(-3.0));
-    from_.rt = -sliding_bar::kFriction * from_.rn;
-    from_.states = {ContactState::kSlipPlus};
+    from_.forces = sliding_bar::NormalReaction(-3.0) * Eigen::Vector2d(1.0, -sliding_bar::kFriction);
+    from_.modes = ModesOf({ContactState::kSlipPlus});
     goal_.length = 0.5;
     goal_.direction = Eigen::Vector3d(1.0, 0.0, 0.0);
   }
@@ -403,7 +402,7 @@ TEST_F(SlidingBarProblem, StateIsTheLargerSideOfEachPair) {
   const auto state = [&](double slip, double gap, double rn, double rt) {
     Eigen::VectorXd x(6);
     x << slip, gap, 0.0, rn, rt, std::abs(slip);
-    return problem.Point(x).states.at(0);
+    return StateOf(problem.Point(x), 0);
   };
   EXPECT_EQ(state(0.5, 0.3, 1e-6, 0.0), ContactState::kOpen);
   EXPECT_EQ(state(0.0, 1e-6, 0.3, 0.0), ContactState::kStick);

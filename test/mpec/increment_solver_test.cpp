@@ -10,6 +10,7 @@
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/scene_contacts.h"
 #include "contact_path/mpec/ipopt_solver.h"
+#include "support/contact_points.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
 
@@ -62,9 +63,9 @@ class SlidingBarIncrement : public testing::Test {
   SlidingBarIncrement() {
     from_.u = Eigen::Vector2d(-3.0, 0.0);
     from_.s = sliding_bar::LoadFactor(-3.0);
-    from_.rn = Eigen::Vector2d(sliding_bar::NormalReaction(-3.0), 0.0);
-    from_.rt = -sliding_bar::kFriction * from_.rn;
-    from_.states = {ContactState::kSlipPlus, ContactState::kOpen};
+    const double rn = sliding_bar::NormalReaction(-3.0);
+    from_.forces = Eigen::Vector4d(rn, -sliding_bar::kFriction * rn, 0.0, 0.0);
+    from_.modes = ModesOf({ContactState::kSlipPlus, ContactState::kOpen});
     goal_.length = 0.1;
     goal_.direction = Eigen::Vector3d(1.0, 0.0, sliding_bar::LoadFactorSlope(-3.0)).normalized();
     goal_.dissipation = 0.2;
@@ -80,7 +81,7 @@ class SlidingBarIncrement : public testing::Test {
     return scene;
   }
   IncrementTrial SolveWith(NonlinearSolver* solver) {
-    return IncrementSolver(structure_, contacts_, solver).Solve(from_, goal_, schedule_);
+    return IncrementSolver(structure_, contacts_, laws_, solver).Solve(from_, goal_, schedule_);
   }
   // Of the point as the check sees it, reached from from_: equilibrium and contact.
   double WorstResidual(const PathPoint& point) const {
@@ -89,8 +90,10 @@ class SlidingBarIncrement : public testing::Test {
       checked.load_factor = at.s;
       const Eigen::VectorXd full = structure_.AllValues(at.u);
       checked.positions.assign(full.data(), full.data() + full.size());
-      checked.rn.assign(at.rn.data(), at.rn.data() + at.rn.size());
-      checked.rt.assign(at.rt.data(), at.rt.data() + at.rt.size());
+      for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        checked.rn.push_back(NormalReaction(at, i));
+        checked.rt.push_back(TangentialReaction(at, i));
+      }
       return checked;
     };
     const Residuals residuals = ResidualCheck(scene_).Check(state(from_), state(point));
@@ -100,6 +103,7 @@ class SlidingBarIncrement : public testing::Test {
   const Scene scene_ = MakeScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = BuildContacts(scene_, structure_);
+  const Laws laws_ = LawsOf(contacts_);
   PathPoint from_;
   IncrementGoal goal_;
   RegularisationSchedule schedule_;
@@ -113,9 +117,9 @@ TEST_F(SlidingBarIncrement, IpoptGivesAnExactPointOfTheClosedForm) {
   EXPECT_GT(trial.iterations, 0);
   const double x = trial.point.u[0];
   EXPECT_NEAR(trial.point.s, sliding_bar::LoadFactor(x), kRounding);
-  EXPECT_NEAR(trial.point.rn[0], sliding_bar::NormalReaction(x), kRounding);
-  EXPECT_EQ(trial.point.rt[0], -sliding_bar::kFriction * trial.point.rn[0]);
-  EXPECT_EQ(trial.point.states, (std::vector<ContactState>{ContactState::kSlipPlus, ContactState::kOpen}));
+  EXPECT_NEAR(NormalReaction(trial.point, 0), sliding_bar::NormalReaction(x), kRounding);
+  EXPECT_EQ(TangentialReaction(trial.point, 0), -sliding_bar::kFriction * NormalReaction(trial.point, 0));
+  EXPECT_EQ(ContactStatesOf(trial.point.modes), (std::vector<ContactState>{ContactState::kSlipPlus, ContactState::kOpen}));
   // The tangent is the direction: the length is the wanted one, less the share of dissipation across it.
   EXPECT_NEAR(Distance(from_, trial.point), goal_.length, 0.1 * goal_.length);
 }
@@ -186,10 +190,10 @@ TEST_F(SlidingBarIncrement, ScheduleGoesDownToItsMinimumWithWarmStarts) {
 
 TEST_F(SlidingBarIncrement, WithoutCandidatesThereIsNothingToRegularise) {
   const ContactPairs none;
-  from_.rn = from_.rt = Eigen::VectorXd();
-  from_.states.clear();
+  from_.forces = Eigen::VectorXd();
+  from_.modes.clear();
   FakeSolver solver([](const NonlinearProgram&, double, PrimalDual*) { return Outcome(SolveStatus::kSolved, 1); });
-  const IncrementTrial trial = IncrementSolver(structure_, none, &solver).Solve(from_, goal_, schedule_);
+  const IncrementTrial trial = IncrementSolver(structure_, none, {}, &solver).Solve(from_, goal_, schedule_);
   ASSERT_EQ(solver.calls().size(), 1u);
   EXPECT_EQ(solver.calls()[0].variables, 3);
   EXPECT_EQ(solver.calls()[0].constraints, 2);

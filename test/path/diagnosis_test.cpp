@@ -55,8 +55,7 @@ constexpr double kFriction = 0.3;
 struct Pressed {
   Pressed(const Obstacle& obstacle, double x)
       : scene(SceneWith(obstacle, x)), model(scene, CharacteristicScales(scene)), point(model.InitialPoint()) {
-    point.rn[0] = 1.0;
-    point.rt[0] = -kFriction;
+    SetReaction(0, 1.0, -kFriction, &point);
   }
 
   static Scene SceneWith(Obstacle obstacle, double x) {
@@ -122,7 +121,7 @@ TEST(HiddenSlip, NamesAContactThatIsAboutToSlide) {
       EndText(HiddenSlip(at.model, at.point)),
       "the sign of the slip per load factor of contact p@disc is not known: its value is 9.2e-11, its error 1e-09; "
       "contact p@disc is pressed onto a curve of the radius 1e-10");
-  at.point.rt[0] = -0.29;
+  at.point.forces[1] = -0.29;
   EXPECT_TRUE(HiddenSlip(at.model, at.point).empty());
 }
 
@@ -134,14 +133,14 @@ TEST(HiddenSlip, SaysNothingOfALargerDisc) {
 // The sign of a reaction is known beyond 1e-11 F, or beyond the rounding of the point where that is larger.
 TEST(PullingContact, TellsASignThatIsNotKnownFromAFailure) {
   Pressed at(Disc(1.0), 0.0);
-  at.point.rn[0] = -1.2e-12;
+  at.point.forces[0] = -1.2e-12;
   EXPECT_FALSE(PullingContact(at.model, at.point, 1.0));
   const std::optional<End> small = PullingContact(at.model, at.point, 5e-12);
   ASSERT_TRUE(small);
   EXPECT_EQ(small->reason, EndReason::kNotDetermined);
   EXPECT_EQ(EndText(small->causes),
             "the sign of the reaction of contact p@disc is not known: its value is -1.2e-12, its error 1e-11");
-  at.point.rn[0] = -1e-3;
+  at.point.forces[0] = -1e-3;
   const std::optional<End> large = PullingContact(at.model, at.point, 1e-2);
   ASSERT_TRUE(large);
   EXPECT_EQ(large->reason, EndReason::kNumericalFailure);

@@ -23,7 +23,7 @@ TEST(FreeMotion, OfABarAboutItsSupport) {
   PathPoint point = model.InitialPoint();
   EXPECT_EQ(FreeNodes(model, point, kForce), std::vector<int>{1});
   EXPECT_EQ(FreeMotionText(model, point, kForce), "node b moves freely; b@floor touches");
-  point.rn[0] = 0.1;
+  point.forces[0] = 0.1;
   EXPECT_TRUE(FreeNodes(model, point, kForce).empty());
   EXPECT_EQ(FreeMotionText(model, point, kForce), "");
   EXPECT_EQ(FreeMotionQuestion(model, point, kForce), "");

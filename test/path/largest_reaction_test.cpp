@@ -24,14 +24,14 @@ TEST(LargestReactionSoFar, IsThatOfTheTraceAndOfTheStage) {
   const double unit = model.contacts[0]->ForceUnit();
   PathPoint point = model.InitialPoint();
   LargestReactionSoFar largest;
-  point.rn[0] = 2.0;
-  point.rt[0] = -3.0;
-  largest.Note(model.contacts, point);
+  point.forces[0] = 2.0;
+  point.forces[1] = -3.0;
+  largest.Note(model.laws, point);
   EXPECT_EQ(largest.of_stage, 3.0 / unit);
   largest.of_stage = 0.0;
-  point.rn[0] = -1.0;
-  point.rt[0] = 0.5;
-  largest.Note(model.contacts, point);
+  point.forces[0] = -1.0;
+  point.forces[1] = 0.5;
+  largest.Note(model.laws, point);
   EXPECT_EQ(largest.of_stage, 1.0 / unit);
   EXPECT_EQ(largest.of_trace, 3.0 / unit);
 }

@@ -384,7 +384,7 @@ TEST_F(Arch19, CornerC) {
   EXPECT_GT(increments.back().load_factor, 0.036);
 }
 
-// Constraint loads at the square of the step, by the largest and smallest increment.
+// Limit loads at the square of the step, by the largest and smallest increment.
 TEST(VonMises, BiotLimits) {
   for (const auto& [half_span, rise] : {std::pair(1.0, 1.0), std::pair(1.0, 0.3)}) {
     TraceRequest request = Example("von_mises", 0.01 * rise);

@@ -124,9 +124,9 @@ class StickSlipCycle : public testing::Test {
         const double s = increment.point.s;
         const bool sticks = direction * (s - stick_until) < 0.0;
         EXPECT_NEAR(increment.point.u[0], sticks ? held : s + offset, 1e-3) << s;  // a corner is cut by less than this
-        if (!sticks && increment.point.states[0] != ContactState::kStick) {
+        if (!sticks && StateOf(increment.point, 0) != ContactState::kStick) {
           EXPECT_NEAR(increment.point.u[0], s + offset, kRounding) << s;
-          EXPECT_EQ(increment.point.states[0], direction > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus)
+          EXPECT_EQ(StateOf(increment.point, 0), direction > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus)
               << s;
         }
         dissipation += increment.work.friction;

@@ -59,7 +59,7 @@ TEST(Preload, NothingToDoWithoutConstantLoadsAndStress) {
   });
   EXPECT_TRUE(preload.done);
   EXPECT_EQ(preload.point.u, model.InitialPoint().u);
-  EXPECT_EQ(preload.point.states, model.InitialPoint().states);
+  EXPECT_EQ(preload.point.modes, model.InitialPoint().modes);
 }
 
 TEST(Preload, ConstantLoadIsCarriedByTheContact) {
@@ -68,9 +68,9 @@ TEST(Preload, ConstantLoadIsCarriedByTheContact) {
   const Preload preload = RunPreload(scene);
   ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.u[0], 1.0, kRounding);
-  EXPECT_NEAR(preload.point.rn[0], 2.0, kRounding);
-  EXPECT_NEAR(preload.point.rt[0], -0.1, kRounding);  // inside the cone: it sticks
-  EXPECT_EQ(preload.point.states[0], ContactState::kStick);
+  EXPECT_NEAR(preload.point.forces[0], 2.0, kRounding);
+  EXPECT_NEAR(preload.point.forces[1], -0.1, kRounding);  // inside the cone: it sticks
+  EXPECT_EQ(StateOf(preload.point, 0), ContactState::kStick);
 }
 
 TEST(Preload, ConstantLoadBeyondTheConeSlides) {
@@ -78,10 +78,10 @@ TEST(Preload, ConstantLoadBeyondTheConeSlides) {
   scene.loads.push_back({"b", 0.3, -0.4, true});
   const Preload preload = RunPreload(scene);
   ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
-  EXPECT_NEAR(preload.point.rn[0], 0.4, kRounding);
-  EXPECT_NEAR(preload.point.rt[0], -0.2, kRounding);
+  EXPECT_NEAR(preload.point.forces[0], 0.4, kRounding);
+  EXPECT_NEAR(preload.point.forces[1], -0.2, kRounding);
   EXPECT_NEAR(preload.point.u[0], 1.1, kRounding);  // the bar takes the rest, 0.3 - 0.2
-  EXPECT_EQ(preload.point.states[0], ContactState::kSlipPlus);
+  EXPECT_EQ(StateOf(preload.point, 0), ContactState::kSlipPlus);
 }
 
 TEST(Preload, BarReleasedFromItsInitialLengthGoesToItsRestLength) {
@@ -101,9 +101,9 @@ TEST(Preload, ReleasedBarDragsTheBlockUntilFrictionHoldsIt) {
   const Preload preload = RunPreload(scene);
   ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.u[0], 0.8 * 1.1, kRounding);
-  EXPECT_NEAR(preload.point.rn[0], 1.0, kRounding);
-  EXPECT_NEAR(preload.point.rt[0], 0.1, kRounding);
-  EXPECT_EQ(preload.point.states[0], ContactState::kSlipMinus);
+  EXPECT_NEAR(preload.point.forces[0], 1.0, kRounding);
+  EXPECT_NEAR(preload.point.forces[1], 0.1, kRounding);
+  EXPECT_EQ(StateOf(preload.point, 0), ContactState::kSlipMinus);
 }
 
 TEST(Preload, DoesNotDependOnTheStep) {
@@ -112,7 +112,7 @@ TEST(Preload, DoesNotDependOnTheStep) {
   const Preload coarse = RunPreload(scene, 0.2), fine = RunPreload(scene, 0.04);
   ASSERT_TRUE(coarse.done && fine.done);
   EXPECT_LE(Distance(coarse.point, fine.point), kRounding);
-  EXPECT_LE((coarse.point.rn - fine.point.rn).norm() + (coarse.point.rt - fine.point.rt).norm(), kRounding);
+  EXPECT_LE((coarse.point.forces - fine.point.forces).norm(), kRounding);
 }
 
 TEST(Preload, SaysWhenThereAreTooManyIncrements) {

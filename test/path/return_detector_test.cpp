@@ -36,7 +36,7 @@ class NodeOnTwoFloorsReturns : public testing::Test {
     point.u[0] += x;
     model_.structure.InternalForce(point.u, force);
     point.s = force[0] / pull;
-    point.rn << share * load, (1.0 - share) * load;
+    point.forces << share * load, 0.0, (1.0 - share) * load, 0.0;
     return point;
   }
 
@@ -67,7 +67,7 @@ TEST_F(NodeOnTwoFloorsReturns, OnlyInTheSameDirection) {
 TEST_F(NodeOnTwoFloorsReturns, OnlyWithTheSameStates) {
   detector_.Add(1, At(0.0, 1.0), At(0.1, 1.0));
   PathPoint from = At(0.05, 1.0), to = At(0.13, 1.0);
-  from.states[1] = to.states[1] = ContactState::kOpen;
+  from.modes[1].state = to.modes[1].state = NumberOf(ContactState::kOpen);
   EXPECT_FALSE(detector_.Find(from, to));
 }
 

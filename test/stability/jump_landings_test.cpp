@@ -238,7 +238,7 @@ TEST(JumpLandings, FrictionOfASlideBehindTheClosingOfAContact) {
     PathPoint from = model.InitialPoint();
     from.u = Eigen::Vector2d(y, 0.0) / model.scaling.length;
     from.s = 2.0 * c * 1.728 / (3.0 * std::sqrt(3.0)) / model.scaling.load_factor;
-    const JumpResult jump = Jump(model.structure, model.contacts, from, Eigen::Vector2d(-1.0, 0.0), {}, false, nullptr);
+    const JumpResult jump = Jump(model.structure, model.laws, from, Eigen::Vector2d(-1.0, 0.0), {}, false, nullptr);
     ASSERT_TRUE(jump.landing);
     const Eigen::Vector2d touches = Eigen::Vector2d(-0.5, 0.0) / model.scaling.length,
                           way = jump.landing->point.u - touches;
@@ -251,7 +251,7 @@ TEST(JumpLandings, FrictionOfASlideBehindTheClosingOfAContact) {
       mean += (force - from.s * model.structure.ReferenceLoad()).dot(Eigen::Vector2d(0.6, 0.8)) / kPoints;
     }
     const double exact = friction * mean * way.norm();
-    EXPECT_NEAR(jump.landing->friction, exact, 1e-6 * exact) << friction;
+    EXPECT_NEAR(jump.landing->dissipated, exact, 1e-6 * exact) << friction;
   }
 }
 

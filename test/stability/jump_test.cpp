@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/tolerances.h"
@@ -26,8 +26,7 @@ class TwoDofFriction : public testing::Test {
   PathPoint Threshold() const {
     PathPoint point = model_.InitialPoint();
     point.s = 1.0 / model_.scaling.load_factor;
-    point.rn[0] = 1.0 / model_.scaling.force;
-    point.rt[0] = -1.0 / model_.scaling.force;
+    SetReaction(0, 1.0 / model_.scaling.force, -1.0 / model_.scaling.force, &point);
     return point;
   }
   double Energy(double scaled) const { return scaled * model_.scaling.force * model_.scaling.length; }
@@ -39,22 +38,22 @@ class TwoDofFriction : public testing::Test {
 TEST_F(TwoDofFriction, LandsOffTheFloorWhateverTheDrag) {
   const PathPoint from = Threshold();
   ASSERT_LE(model_.Check(from, from).Largest(), 1e-14);
-  const JumpResult jump = Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
+  const JumpResult jump = Jump(model_.structure, model_.laws, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
   EXPECT_TRUE(jump.robust);
   for (const std::optional<Landing>& landing : jump.landings) {
     ASSERT_TRUE(landing);
     const Eigen::Vector2d u = landing->point.u * model_.scaling.length;
     EXPECT_NEAR(u.x(), 10.0 / 7.0, 1e-12);
     EXPECT_NEAR(u.y(), 2.0 / 7.0, 1e-12);
-    EXPECT_EQ(landing->point.states[0], ContactState::kOpen);
-    EXPECT_NEAR(Energy(landing->friction), 1.0 / 3.0, 1e-9);
-    EXPECT_NEAR(Energy(landing->energy_released() + landing->friction), 4.0 / 7.0, 1e-11);
+    EXPECT_EQ(StateOf(landing->point, 0), ContactState::kOpen);
+    EXPECT_NEAR(Energy(landing->dissipated), 1.0 / 3.0, 1e-9);
+    EXPECT_NEAR(Energy(landing->energy_released() + landing->dissipated), 4.0 / 7.0, 1e-11);
   }
 }
 
 TEST_F(TwoDofFriction, FindsTheSignByItself) {
   const JumpResult jump =
-      Jump(model_.structure, model_.contacts, Threshold(), Eigen::Vector2d(-1.0, 0.0), {}, true, nullptr);
+      Jump(model_.structure, model_.laws, Threshold(), Eigen::Vector2d(-1.0, 0.0), {}, true, nullptr);
   ASSERT_TRUE(jump.landing);
   EXPECT_NEAR(jump.landing->point.u.x() * model_.scaling.length, 10.0 / 7.0, 1e-12);
 }
@@ -62,8 +61,8 @@ TEST_F(TwoDofFriction, FindsTheSignByItself) {
 TEST_F(TwoDofFriction, IsHeldBelowTheThreshold) {
   PathPoint from = Threshold();
   from.s *= 0.9;
-  from.rt *= 0.9;
-  const JumpResult jump = Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
+  from.forces[1] *= 0.9;
+  const JumpResult jump = Jump(model_.structure, model_.laws, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
   EXPECT_FALSE(jump.landing);
   EXPECT_TRUE(jump.came_back);
   EXPECT_LE(jump.followed, 1e-4);
@@ -76,7 +75,7 @@ TEST_F(TwoDofFriction, AMachineHoldsItFromItsCriticalStiffness) {
   const auto by_machine = [&](double k) {
     Machine machine;
     machine.stiffness = k / unit / (f * f);
-    return Jump(model_.structure, model_.contacts, Threshold(), Eigen::Vector2d(1.0, 0.0), machine, true, nullptr);
+    return Jump(model_.structure, model_.laws, Threshold(), Eigen::Vector2d(1.0, 0.0), machine, true, nullptr);
   };
   EXPECT_TRUE(by_machine(0.51).came_back);
   EXPECT_TRUE(by_machine(std::numeric_limits<double>::infinity()).came_back);
@@ -116,14 +115,14 @@ class Snap : public testing::Test {
 TEST_F(Snap, LandsWhereTheLoadIsTheSame) {
   for (const double sign : {1.0, -1.0}) {
     const JumpResult jump =
-        Jump(model_.structure, model_.contacts, At(kLimitY, kLimit), Eigen::Vector2d(0.0, sign), {}, true, nullptr);
+        Jump(model_.structure, model_.laws, At(kLimitY, kLimit), Eigen::Vector2d(0.0, sign), {}, true, nullptr);
     EXPECT_TRUE(jump.robust);
     for (const std::optional<Landing>& landing : jump.landings) {
       ASSERT_TRUE(landing);
       EXPECT_NEAR(landing->point.u.y() * model_.scaling.length, -2.0 * kLimitY, 1e-8);
       EXPECT_NEAR(landing->energy_released() * model_.scaling.force * model_.scaling.length,
                   0.75 * kC * std::pow(kHeight, 4), 1e-8);
-      EXPECT_EQ(landing->friction, 0.0);
+      EXPECT_EQ(landing->dissipated, 0.0);
     }
   }
 }
@@ -135,7 +134,7 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
   machine.stiffness = 0.5 * kC * kHeight * kHeight / unit / (f * f);
   const PathPoint from = At(0.0, 0.0);
   const JumpResult jump =
-      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr);
+      Jump(model_.structure, model_.laws, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr);
   ASSERT_TRUE(jump.landing);
   EXPECT_TRUE(jump.robust);
   // W' = -k y with W' = c y (y^2 - h^2): y^2 = h^2 / 2.
@@ -147,7 +146,7 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
   EXPECT_GT(jump.landing->energy_released(), 0.0);
   machine.stiffness *= 2.1;
   EXPECT_TRUE(
-      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr).came_back);
+      Jump(model_.structure, model_.laws, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr).came_back);
 }
 
 // ----- the truss lies on its side on a rough floor, pressed onto it by the constant load N
@@ -158,11 +157,10 @@ JumpResult SnapOnFloor(double friction_force, const Model& model) {
   PathPoint from = model.InitialPoint();
   from.u = Eigen::Vector2d(kLimitY, 0.0) / model.scaling.length;
   from.s = (kLimit + friction_force) / model.scaling.load_factor;
-  from.rn[0] = 2.0 * friction_force / model.scaling.force;
-  from.rt[0] = friction_force / model.scaling.force;
-  from.states[0] = ContactState::kSlipMinus;
+  SetReaction(0, 2.0 * friction_force / model.scaling.force, friction_force / model.scaling.force, &from);
+  from.modes[0].state = NumberOf(ContactState::kSlipMinus);
   EXPECT_LE(model.Check(from, from).Largest(), 1e-14);
-  return Jump(model.structure, model.contacts, from, Eigen::Vector2d(-1.0, 0.0), {}, true, nullptr);
+  return Jump(model.structure, model.laws, from, Eigen::Vector2d(-1.0, 0.0), {}, true, nullptr);
 }
 
 Scene OnFloor(double friction_force) {
@@ -190,7 +188,7 @@ TEST(SnapOnAFloor, WithInertiaItStopsBeyond) {
     const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
     ASSERT_TRUE(landing);
     EXPECT_NEAR(landing->point.u.x() * model.scaling.length, -2.0 * kLimitY, 1e-9);
-    EXPECT_NEAR(landing->friction * model.scaling.force * model.scaling.length, friction_force * 3.0 * kLimitY, 1e-9);
+    EXPECT_NEAR(landing->dissipated * model.scaling.force * model.scaling.length, friction_force * 3.0 * kLimitY, 1e-9);
     EXPECT_NEAR(landing->energy_released() * model.scaling.force * model.scaling.length,
                 0.75 * kC * std::pow(kHeight, 4), 1e-9);
   }
@@ -198,7 +196,7 @@ TEST(SnapOnAFloor, WithInertiaItStopsBeyond) {
   const double x = jump.landings[2]->point.u.x() * model.scaling.length;
   EXPECT_LT(x, -2.0 * kLimitY - 0.1);
   EXPECT_GT(x, -std::sqrt(3.0) * kHeight);
-  EXPECT_EQ(jump.landings[2]->point.states[0], ContactState::kStick);
+  EXPECT_EQ(StateOf(jump.landings[2]->point, 0), ContactState::kStick);
   EXPECT_NEAR(jump.largest_difference * model.scaling.length, -2.0 * kLimitY - x, 1e-9);
 }
 
@@ -216,7 +214,7 @@ TEST(Jump, ReportsHowFarSomethingFliesOff) {
   const double e = std::exp(1.0);
   from.u = Eigen::Vector2d(e, 0.0) / model.scaling.length;
   from.s = 1.0 / e / model.scaling.load_factor;
-  const JumpResult jump = Jump(model.structure, model.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
+  const JumpResult jump = Jump(model.structure, model.laws, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
   EXPECT_FALSE(jump.landing);
   EXPECT_FALSE(jump.robust);
   EXPECT_FALSE(jump.came_back);
@@ -229,7 +227,7 @@ TEST(Jump, CanBeCancelled) {
   PathPoint from = model.InitialPoint();
   from.u = Eigen::Vector2d(0.0, 0.0);
   int asked = 0;
-  const JumpResult jump = Jump(model.structure, model.contacts, from, Eigen::Vector2d(0.0, -1.0), {}, true,
+  const JumpResult jump = Jump(model.structure, model.laws, from, Eigen::Vector2d(0.0, -1.0), {}, true,
                                [&asked] { return ++asked > 20; });
   EXPECT_TRUE(jump.cancelled);
   EXPECT_FALSE(jump.landing);
@@ -240,8 +238,8 @@ TEST(Jump, CanBeCancelled) {
 // Newton's method stays at an equilibrium that is one to rounding.
 void ExpectEquilibrium(const Model& model, const PathPoint& point) {
   EXPECT_LE(model.Check(point, point).Largest(), tolerances::kAccepted);
-  ContactArc arc(model.structure, model.contacts);
-  arc.SetStates(point.states, point);
+  ModeArc arc(model.structure, model.laws);
+  arc.SetModes(point);
   const Eigen::VectorXd at = arc.system().Pack(point);
   const Correction again = arc.Correct(at, Eigen::VectorXd::Unit(at.size(), arc.NumMotion() - 1), point.s);
   EXPECT_TRUE(again.converged);
@@ -264,7 +262,7 @@ void ExpectLandings(const std::string& name, int most) {
                       StageScales(expanded.Get(), stage));
     const PathPoint from = model.FromIncrement(limit);
     const JumpResult jump =
-        Jump(model.structure, model.contacts, from, model.FromIncrement(after).u - from.u, {}, true, nullptr);
+        Jump(model.structure, model.laws, from, model.FromIncrement(after).u - from.u, {}, true, nullptr);
     ++jumps;
     EXPECT_TRUE(jump.landing);
     for (const std::optional<Landing>& landing : jump.landings) {
@@ -272,7 +270,7 @@ void ExpectLandings(const std::string& name, int most) {
       ExpectEquilibrium(model, landing->point);
       EXPECT_EQ(landing->point.s, from.s);
       EXPECT_GT(landing->energy_released(), 0.0);
-      EXPECT_GT(landing->friction, 0.0);
+      EXPECT_GT(landing->dissipated, 0.0);
     }
   }
   EXPECT_GT(jumps, 0);
@@ -291,7 +289,7 @@ TEST(JumpOfAnExample, RoughTrussUnderDisplacementControl) {
   const PathPoint from = model.FromIncrement(*corner);
   Machine machine;
   machine.stiffness = std::numeric_limits<double>::infinity();
-  const JumpResult jump = Jump(model.structure, model.contacts, from, model.FromIncrement(*(corner + 1)).u - from.u,
+  const JumpResult jump = Jump(model.structure, model.laws, from, model.FromIncrement(*(corner + 1)).u - from.u,
                                machine, true, nullptr);
   for (const Drag drag : {Drag::kUniform, Drag::kStiffness}) {
     const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
@@ -305,7 +303,7 @@ TEST(JumpOfAnExample, RoughTrussUnderDisplacementControl) {
   }
   // With inertia the foot leaves the floor, and nothing brings it back.
   ASSERT_TRUE(jump.landings[2]);
-  EXPECT_EQ(jump.landings[2]->point.states[0], ContactState::kOpen);
+  EXPECT_EQ(StateOf(jump.landings[2]->point, 0), ContactState::kOpen);
   EXPECT_FALSE(jump.robust);
 }
 

@@ -59,17 +59,15 @@ constexpr double kGrown = 30.0;  // times the disturbance: it grows
 PathPoint Sliding(const Model& model, double friction) {
   PathPoint point = model.InitialPoint();
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    point.rn[k] = 1.0;
-    point.rt[k] = -friction;
-    point.states[i] = ContactState::kSlipPlus;
+    SetReaction(i, 1.0, -friction, &point);
+    point.modes[i].state = NumberOf(ContactState::kSlipPlus);
   }
   return point;
 }
 
 Stability SlidingVerdict(const Eigen::MatrixXd& stiffness, std::size_t on_floor, double friction, double compliance) {
   const Model model(LinearScene(stiffness, on_floor, friction), kUnscaled);
-  StabilityProblem problem(model.structure, model.contacts);
+  StabilityProblem problem(model.structure, model.laws);
   problem.Set(Sliding(model, friction), {});
   return problem.Under(compliance);
 }
@@ -129,7 +127,7 @@ TEST(StabilityProblemTest, WhatADeadLoadHoldsAMachineNeedNot) {
   scene.nodes[1].fixed_x = true;
   scene.loads = {{"n1", 0.0, -1.0, false}};
   const Model model(scene, kUnscaled);
-  StabilityProblem problem(model.structure, model.contacts);
+  StabilityProblem problem(model.structure, model.laws);
   problem.Set(Sliding(model, 1.0), {});
   EXPECT_EQ(problem.Under(INFINITY).verdict, Verdict::kStable);
   EXPECT_EQ(problem.Under(0.0).verdict, Verdict::kUnstable);
@@ -151,11 +149,10 @@ TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
     point.u += random.Vector(point.u.size(), -0.6, 0.6);
     std::vector<bool> held(static_cast<std::size_t>(point.u.size()), false);
     for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
       const std::size_t node = *model.index.FindNode(scene.contacts[i].node);
       const bool sticks = random.Number(0.0, 1.0) < 0.5 && model.contacts[i]->Frictional();
-      point.states[i] = sticks ? ContactState::kStick : ContactState::kOpen;
-      point.rn[k] = sticks ? 1.0 : 0.0;
+      point.modes[i].state = NumberOf(sticks ? ContactState::kStick : ContactState::kOpen);
+      SetReaction(i, sticks ? 1.0 : 0.0, TangentialReaction(point, i), &point);
       if (!sticks) continue;
       for (const int axis : {0, 1})
         if (const int dof = model.structure.Dof(static_cast<int>(node), axis); dof >= 0)
@@ -177,7 +174,7 @@ TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K);
     if (!(solver.eigenvalues().cwiseAbs().minCoeff() > 1e-8 * solver.eigenvalues().cwiseAbs().maxCoeff())) continue;
     const auto negative = static_cast<int>((solver.eigenvalues().array() < 0.0).count());
-    StabilityProblem problem(model.structure, model.contacts);
+    StabilityProblem problem(model.structure, model.laws);
     problem.Set(point, {});
     const Stability found = problem.Under(INFINITY);
     EXPECT_EQ(found.directions, negative) << seed;

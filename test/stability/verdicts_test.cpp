@@ -78,16 +78,16 @@ Dense DenseAt(const Model& model, const PathPoint& point) {
   std::vector<bool> held(static_cast<std::size_t>(K.rows()), false);
   std::vector<Eigen::Index> feet;  // x of those that slide; y is the next one
   std::vector<double> senses;
-  for (std::size_t i = 0; i < point.states.size(); ++i) {
-    if (point.states[i] == ContactState::kOpen) continue;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    if (StateOf(point, i) == ContactState::kOpen) continue;
     const int node = static_cast<int>(*model.index.FindNode(model.scene.contacts[i].node));
     const Eigen::Index x = model.structure.Dof(node, 0), y = model.structure.Dof(node, 1);
     held[static_cast<std::size_t>(y)] = true;
     if (!model.contacts[i]->Frictional()) continue;
     held[static_cast<std::size_t>(x)] = true;
-    if (!Slips(point.states[i])) continue;
+    if (!Slips(StateOf(point, i))) continue;
     feet.push_back(x);
-    senses.push_back(point.states[i] == ContactState::kSlipPlus ? 1.0 : -1.0);
+    senses.push_back(StateOf(point, i) == ContactState::kSlipPlus ? 1.0 : -1.0);
   }
   for (Eigen::Index k = 0; k < K.rows(); ++k)
     if (!held[static_cast<std::size_t>(k)]) free.push_back(k);

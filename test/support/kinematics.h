@@ -1,4 +1,4 @@
-// Kinematics of a contact candidate as the tests want them.
+// Ports of a contact candidate as the tests want them.
 #ifndef CONTACT_PATH_TEST_SUPPORT_KINEMATICS_H_
 #define CONTACT_PATH_TEST_SUPPORT_KINEMATICS_H_
 
@@ -9,16 +9,16 @@
 namespace contact_path {
 
 // With xi measured from 0.
-inline Kinematics KinematicsAt(const ContactPair& pair, const Eigen::VectorXd& u, double s, int patch = 0) {
-  Kinematics kinematics;
-  pair.Evaluate(u, s, patch, 0.0, &kinematics);
-  return kinematics;
+inline PortsAt KinematicsAt(const ContactPair& pair, const Eigen::VectorXd& u, double s, int patch = 0) {
+  PortsAt ports;
+  pair.Evaluate(u, s, patch, {}, &ports);
+  return ports;
 }
 
 inline double GapRate(const ContactPair& pair, const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du,
                       double ds) {
-  const Kinematics at = KinematicsAt(pair, u, s);
-  return at.Rate(at.gap_gradient, du, ds);
+  const PortsAt at = KinematicsAt(pair, u, s);
+  return at.Rate(at[kNormal].gradient, du, ds);
 }
 
 }  // namespace contact_path

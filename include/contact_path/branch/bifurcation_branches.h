@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 
 namespace contact_path {
 
 // The arc itself, which goes on, comes first. Then both directions of each path that crosses the arc, without those
-// that let a contact slide back.
-std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing,
+// that let a law slide back.
+std::vector<Branch> BifurcationBranches(const ModeArc& arc, const Crossing& crossing,
                                         const PathParameter& parameter);
 
 }  // namespace contact_path

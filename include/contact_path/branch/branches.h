@@ -1,4 +1,4 @@
-// The branches from a point of the path: every combination of contact states whose one-sided rates are admissible.
+// The branches from a point of the path: every combination of states of the laws whose one-sided rates are admissible.
 #ifndef CONTACT_PATH_BRANCH_BRANCHES_H_
 #define CONTACT_PATH_BRANCH_BRANCHES_H_
 
@@ -8,21 +8,19 @@
 #include <string_view>
 #include <vector>
 
-#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/branch/path_parameter.h"
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/law/laws.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
 // Scaled quantities and rates by arc length |(du, ds)|.
 struct Branch {
-  std::vector<ContactState> states;  // by candidate, on the arc that starts here
-  std::vector<int> patches;          // of the surfaces, by candidate; empty where the point has none
-  Eigen::VectorXd direction;         // (du, ds), unit vector, NumDofs() + 1
-  Eigen::VectorXd first;             // all unknowns of the fixed-state system: derivatives by arc length
+  Modes modes;                // by law, on the arc that starts here
+  Eigen::VectorXd direction;  // (du, ds), unit vector, NumDofs() + 1
+  Eigen::VectorXd first;      // all unknowns of the fixed-mode system: derivatives by arc length
   Eigen::VectorXd second;
   double load_rate = 0.0;         // ds
   double parameter_rate = 0.0;    // PathParameter::Rate()
@@ -52,7 +50,7 @@ struct Arrival {
   bool forward = false;  // branches on which the parameter goes on come first, then those on which it rests
   // What fails at once on the branch that was taken here, which has the states of the point: though its rate is within
   // the tolerance, that branch does not lead on.
-  std::optional<Constraint> failed;
+  std::optional<Limit> failed;
 };
 
 // Why a list of branches has all branches. Of two lists together: the smaller one.
@@ -67,22 +65,21 @@ std::string_view ToString(Completeness completeness);
 
 struct BranchSet {
   std::vector<Branch> branches;  // best first (branch_order.h)
-  int weakly_active = 0;         // contacts that could change their state
+  int weakly_active = 0;         // laws that could change their state
   Completeness complete_by = Completeness::kAllCombinations;
   bool cancelled = false;  // before the end: nothing else counts
   int combinations = 0;    // tried
   int rigid_modes = 0;     // most motions found that change neither load nor reactions where nothing else moves
 };
 
-// -r_t . du_t >= 0 of the contacts that slide, with the reactions of the point. By the total law of friction, which
-// opposes no motion but a distance, nothing dissipates: 0. direction: (du, ds).
-double DissipationRate(const ContactPairs& contacts, const std::vector<ContactState>& states, const PathPoint& point,
-                       const Eigen::VectorXd& direction);
+// -force . rate of what the force works along, >= 0, of the ports that follow, with the forces of the point. A holonomic
+// law, which opposes no motion but a distance, dissipates nothing: 0. direction: (du, ds).
+double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& point, const Eigen::VectorXd& direction);
 
-// All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all contacts that slip,
-// and each contact with an inequality that is zero to `tolerance`. Of branches with equal directions one is kept: the
-// branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or, with
-// Arrival::forward, on none the path parameter goes on, reactions may have to change while nothing moves, as where a
+// All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all laws that slide, and
+// each law with a limit that is zero to `tolerance`. Of branches with equal directions one is kept: the branch in which
+// fewest laws slide without moving. Where all branches turn by 90 degrees or more, or, with
+// Arrival::forward, on none the path parameter goes on, forces may have to change while nothing moves, as where a
 // block that is carried along meets a stop. Then branches are added for all other reactions that the point can have
 // (reaction_redistribution.h). The complementarity problem of the rates (rate_complementarity.h) tells the branches
 // where its solutions are the only ones, and where there are more than 4^6 combinations of states; up to 4^6
@@ -90,7 +87,7 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 // branch of arrival. Where there are more of them, and that problem does not exist or leaves a sense open, principal
 // pivoting on the rates (rate_problem.h) selects combinations from several first guesses; if there is no branch then,
 // up to 4^8 are all tried. All are tried alike. cancelled: asked often; may be empty.
-BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
+BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance,
                        const std::function<bool()>& cancelled = nullptr);
 

@@ -30,7 +30,7 @@ struct StepEvent {
   };
 
   double t = 0.0;                         // parameter of the step
-  std::optional<Constraint> fails = {};   // the limit that reaches zero and would be broken
+  std::optional<Limit> fails = {};   // the limit that reaches zero and would be broken
   bool turns = false;                     // ds = 0
   std::optional<Crossing> crossing = {};  // other curves cross
   bool singular = false;  // more than one other curve crosses where the load turns, as at two dead centres at once

@@ -1,5 +1,4 @@
-// The rates at an event as one linear complementarity problem, of the size of the contacts that may change their
-// states.
+// The rates at an event as one linear complementarity problem, of the size of the laws that may change their states.
 #ifndef CONTACT_PATH_BRANCH_RATE_COMPLEMENTARITY_H_
 #define CONTACT_PATH_BRANCH_RATE_COMPLEMENTARITY_H_
 
@@ -8,64 +7,67 @@
 #include <vector>
 
 #include "contact_path/branch/rate_problem.h"
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/contact_state.h"
+#include "contact_path/law/laws.h"
 
 namespace contact_path {
 
 struct RateSolution {
-  std::vector<ContactState> states;  // by candidate; of those that are not weakly active, the first option
-  bool degenerate = false;           // rates that are zero hide some of the states: others have the same rates
+  States states;            // by law; of those that are not weakly active, the first option
+  bool degenerate = false;  // rates that are zero hide some of the states: others have the same rates
 };
 
-// For a rate s' = +-1 of the load, rates by the load and not by arc length. Each weakly active contact has
-//   at an edge of its cone, sliding or about to with sense sigma:
-//     v_n = 0, 0 <= z, 0 <= mu r_n + sigma r_t, one of them zero; v_t = sigma z
-//   touching without a reaction:
-//     0 <= v_n, 0 <= r_n, one of them zero; v_t = z+ - z-;
-//     0 <= z+, 0 <= mu r_n + r_t, one of them zero; 0 <= z-, 0 <= mu r_n - r_t, one of them zero
-// (Klarbring 1990; primes of the rates are left out). Without friction r_t = 0. Stiffnesses or compliances that connect
-// motions and reactions come from the condensed rate problem. As a rule the motions are given and the reactions follow;
-// where motions depend on each other, as of a node between two walls, some reactions are given.
+// For a rate s' = +-1 of the load, rates by the load and not by arc length. Each weakly active law has a base state, in
+// which most of its ports are held, and limits of forces in it that are at zero. Each of these is the first of a pair,
+// whose second is the motion of the state beyond:
+//   0 <= w, 0 <= z, one of them zero; w = sum of weight * force over the ports, z = sign * motion of a port
+// A contact at an edge of its cone, sliding or about to with sense sigma:
+//     v_n = 0; w = mu r_n + sigma r_t, z = sigma v_t
+// a contact that touches without a reaction: w = r_n, z = v_n, and v_t = z+ - z- with two pairs, mu r_n +- r_t and z+-
+// (Klarbring 1990; primes of the rates are left out); without friction r_t = 0. Stiffnesses or compliances that connect
+// motions and forces come from the condensed rate problem. As a rule the motions are given and the forces follow; where
+// motions depend on each other, as of a node between two walls, some forces are given.
 class RateComplementarity {
  public:
-  // options: of each candidate; weakly_active: candidates with several, in the order of the rate problem.
-  RateComplementarity(const ContactPairs& contacts, const RateProblem& rates, const std::vector<ContactModes>& options,
+  // options: of each law; weakly_active: laws with several, in the order of the rate problem.
+  RateComplementarity(const Laws& laws, const RateProblem& rates, const std::vector<Modes>& options,
                       const std::vector<int>& weakly_active);
 
-  // False: the law of friction is not the incremental one, or the problem is singular.
+  // False: some law is holonomic, or has no such pairs, or the problem is singular.
   bool exists() const { return exists_; }
-  // Whether the solution for each s' is the only one: all weakly active contacts are at edges of their cones or without
-  // friction, and the symmetric part of the matrix is positive definite. No motion without load exists then.
+  // Whether the solution for each s' is the only one: no port has two pairs, and the symmetric part of the matrix is
+  // positive definite. No motion without load exists then.
   bool unique() const { return unique_; }
 
   // For s' = load_sense. Where the solution is not unique, those that were found; there may be more.
   std::vector<RateSolution> Solve(double load_sense) const;
 
  private:
-  enum class Role { kFrictionless, kRough, kEdgePlus, kEdgeMinus };
-  // One of the pairs: the first variable as a function of all second ones.
+  // One of the pairs: the first variable as a function of all second ones. Directions are ports of the rate problem.
   struct Pair {
-    Eigen::Index contact;   // among the weakly active ones
-    Inequality force;       // of r_n, mu r_n + r_t or mu r_n - r_t
-    bool motion_is_second;  // v_n or z; otherwise the force is
-
-    double Sense() const { return force == Inequality::kConeMinus ? -1.0 : 1.0; }
+    std::size_t law;                // among the weakly active ones
+    Eigen::Index port;              // of z
+    double sign;                    // of z, and the weight of the force of this port in w
+    Eigen::Index other = -1;        // the port whose force has another weight in w; -1: none has
+    double weight = 0.0;            // of that force
+    int next = 0;                   // state beyond
+    bool motion_is_second = false;  // z; otherwise w is
+    bool first_of_two = false;      // the next pair is of the same port, the other way
   };
 
-  static bool AtEdge(Role role) { return role == Role::kEdgePlus || role == Role::kEdgeMinus; }
-  bool FindRoles();
+  bool FindPairs(const RateProblem& rates);
   void Build(const RateProblem& rates);
-  // Of motions v = A (r + v) + b s': which of them are given, and the reactions follow; nothing: singular.
+  // Of motions v = A (r + v) + b s': which of them are given, and the forces follow; nothing: singular.
   std::optional<std::vector<bool>> GivenMotions(const Eigen::MatrixXd& A) const;
 
-  const ContactPairs& contacts_;
-  const std::vector<ContactModes>& options_;
+  const Laws& laws_;
+  const std::vector<Modes>& options_;
   const std::vector<int>& weakly_active_;
-  std::vector<Role> roles_;
+  std::vector<int> base_;  // state, by weakly active law
   std::vector<Pair> pairs_;
-  Eigen::MatrixXd matrix_;  // scaled so that its diagonal is of the order of 1
-  Eigen::VectorXd load_;    // of s' = 1
+  std::vector<int> turn_;           // by port: when it is decided whether its motion is given
+  Eigen::VectorXd compliance_;      // by port
+  Eigen::MatrixXd matrix_;          // scaled so that its diagonal is of the order of 1
+  Eigen::VectorXd load_;            // of s' = 1
   bool exists_ = false;
   bool unique_ = false;
 };

@@ -1,4 +1,4 @@
-// The rates at an event, condensed to the contacts that may change their states.
+// The rates at an event, condensed to the laws that may change their modes.
 #ifndef CONTACT_PATH_BRANCH_RATE_PROBLEM_H_
 #define CONTACT_PATH_BRANCH_RATE_PROBLEM_H_
 
@@ -6,72 +6,69 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/branch/active_set_tolerance.h"
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
+#include "contact_path/law/active_set_tolerance.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
-// Rates by arc length |(du, ds)|, of one combination of states. By weakly_active contact, in their order.
+// Rates by arc length |(du, ds)|, of one combination of states. By port of the weakly active laws, in their order.
 struct CondensedRates {
-  double load = 0.0;     // ds
-  Eigen::VectorXd gap;   // du_n
-  Eigen::VectorXd slip;  // du_t
-  Eigen::VectorXd rn;
-  Eigen::VectorXd rt;
+  double load = 0.0;       // ds
+  Eigen::VectorXd motion;  // d(motion)
+  Eigen::VectorXd force;
 };
 
-// du = ds w + W p, w the displacement by the load and W those by unit reactions of the weakly_active contacts, all
-// other contacts in their states. Springs hold the weakly_active contacts while w and W are computed, so that a
-// structure that only they support can be condensed, too; their forces are then part of p. One factorisation of the
-// structure serves all combinations of states.
+// du = ds w + W p, w the displacement by the load and W those by unit forces of the ports of the weakly active laws,
+// all other laws in their modes. Springs hold these ports while w and W are computed, so that a structure that only they
+// support can be condensed, too; their forces are then part of p. One factorisation of the structure serves all
+// combinations of states.
 class RateProblem {
  public:
-  // states: by candidate; states of the weakly_active contacts (indices of candidates) do not matter. arrival: (du,
-  // ds). structure and contacts must outlive the problem.
-  RateProblem(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-              const std::vector<ContactState>& states, const std::vector<int>& weakly_active,
-              const Eigen::VectorXd& arrival);
+  // modes: by law; those of the weakly active ones tell their pieces alone. arrival: (du, ds). structure and laws must
+  // outlive the problem.
+  RateProblem(const Structure& structure, const Laws& laws, const PathPoint& point, const Modes& modes,
+              const std::vector<int>& weakly_active, const Eigen::VectorXd& arrival);
 
   // False: the structure is singular even with the springs, and nothing below can be asked.
   bool regular() const { return regular_; }
-  // Rates of the gaps and of the slips of the weakly active contacts: rows, by ds, and by the normal and the tangential
-  // force of each, the force of its springs included, which have the stiffness 1.
-  const Eigen::MatrixXd& GapRates() const { return gap_; }
-  const Eigen::MatrixXd& SlipRates() const { return slip_; }
+  // Rates of the motions of the ports of the weakly active laws: rows, by ds, and by the force of each of these ports,
+  // the force of its spring included, which has the stiffness 1.
+  const Eigen::MatrixXd& MotionRates() const { return motion_; }
+  // Of the first port of a weakly active law.
+  Eigen::Index FirstPort(std::size_t k) const { return first_port_[k]; }
 
-  // The rates for these states of all candidates, up to their sign. Nothing where they are not unique, and where parts
-  // can move as rigid bodies: in rounding such rates may look unique.
-  std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
+  // The rates for these states of all laws, up to their sign. Nothing where they are not unique, and where parts can
+  // move as rigid bodies: in rounding such rates may look unique.
+  std::optional<CondensedRates> Rates(const States& states) const;
 
-  // The first weakly active inequality that these rates, times sign, break by more than `tolerance` of the largest rate
-  // of its kind; all such inequalities in `all`, if it is not null. active: which inequalities are weakly active. Both
-  // tolerances measure reactions in the force unit of the contact, normal reactions in NormalForceUnit().
-  std::optional<Constraint> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
-                                   const ActiveSetTolerance& active, double tolerance,
-                                   std::vector<Constraint>* all) const;
+  // The first weakly active limit that these rates, times sign, break by more than `tolerance` of the largest rate of
+  // its kind; all such limits in `all`, if it is not null. active: which limits are weakly active. Both tolerances
+  // measure forces in the unit of the limit.
+  std::optional<Limit> Broken(const States& states, const CondensedRates& rates, double sign,
+                              const ActiveSetTolerance& active, double tolerance, std::vector<Limit>* all) const;
 
  private:
-  double Unit(Eigen::Index k) const;  // force unit of a weakly active contact
-  Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
-  // Whether a rigid motion of parts that only weakly active contacts may hold is free in these states.
-  bool LeavesRigidMotion(const std::vector<ContactState>& states) const;
+  const StateRule& StateIn(const States& states, std::size_t k) const {
+    const auto i = static_cast<std::size_t>(weakly_active_[k]);
+    return laws_[i].In(states[i]);
+  }
+  Eigen::MatrixXd Equations(const States& states) const;
+  // Whether a rigid motion of parts that only weakly active laws may hold is free in these states.
+  bool LeavesRigidMotion(const States& states) const;
 
-  const ContactPairs& contacts_;
+  const Laws& laws_;
   const PathPoint point_;
   std::vector<int> weakly_active_;
+  std::vector<Eigen::Index> first_port_;
+  Eigen::Index num_ports_ = 0;
   bool regular_ = false;
-  // Rows: weakly_active contacts; columns: ds, then the normal and tangential force of each weakly_active contact,
-  // springs included.
-  Eigen::MatrixXd gap_;
-  Eigen::MatrixXd slip_;
-  // The same by rigid motions of parts that nothing holds but weakly active contacts: columns.
-  Eigen::MatrixXd gap_of_modes_, slip_of_modes_;
-  Eigen::VectorXd slipped_;  // xi - xi_0 by the total law of friction, 0 by the incremental law
-  Eigen::MatrixXd gram_;     // z . gram z = |(du, ds)|^2
-  Eigen::VectorXd along_;    // along_ . z = (du, ds) . arrival
+  Eigen::MatrixXd motion_;     // MotionRates()
+  Eigen::MatrixXd free_;       // the same by rigid motions of parts that nothing holds but these laws: columns
+  Eigen::VectorXd travelled_;  // motions from their references
+  Eigen::MatrixXd gram_;       // z . gram z = |(du, ds)|^2
+  Eigen::VectorXd along_;      // along_ . z = (du, ds) . arrival
 };
 
 }  // namespace contact_path

@@ -49,7 +49,7 @@ class SmoothArc {
   // lead on fast.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
   // Newton's method for the point of the curve where a limit is exactly zero, from guess.
-  Correction CorrectOnto(const Constraint& limit, const Eigen::VectorXd& guess);
+  Correction CorrectOnto(const Limit& limit, const Eigen::VectorXd& guess);
 
   // What rounding leaves of a rate gradient . first at the point of the last Derivatives(): rounding of the equations
   // that the tangent solves, and of the point, M d = rounding with M = [J; row], which changes the rate by y . F''(t,
@@ -66,7 +66,7 @@ class SmoothArc {
   std::optional<Eigen::Index> NegativeEigenvalues(const Eigen::VectorXd& x) const;
 
   // The rounding of a limit's value: down to minus this it counts as holding.
-  double RoundingOf(const Constraint& limit) const {
+  double RoundingOf(const Limit& limit) const {
     return equations_.RoundingOf(limit, tolerances::kMargin * reaction_error_);
   }
 

@@ -1,21 +1,23 @@
-// State of a contact candidate on an arc of path.
+// State of a contact candidate on an arc of path, and its share of a point.
 #ifndef CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 #define CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 
-#include <algorithm>
+#include <cstddef>
 #include <string_view>
-#include <tuple>
 #include <vector>
+
+#include "contact_path/law/path_point.h"
 
 namespace contact_path {
 
-// Signs: the reaction acts on the node, r_n along the normal n, r_t along t = (n_y, -n_x).
+// Signs: the reaction acts on the node, r_n along the normal n, r_t along t = (n_y, -n_x). The numbers are those of
+// Mode::state.
 enum class ContactState {
-  kOpen,       // gap >= 0, r = 0
   kStick,      // gap = 0, no tangential motion, |r_t| <= mu r_n
   kSlipPlus,   // gap = 0, motion towards +t, r_t = -mu r_n
   kSlipMinus,  // gap = 0, motion towards -t, r_t = +mu r_n
   kClosed,     // frictionless: gap = 0, r_t = 0
+  kOpen,       // gap >= 0, r = 0
 };
 
 // "open", "stick", "slip+", "slip-", "closed".
@@ -24,39 +26,21 @@ std::string_view ToString(ContactState state);
 // slip+ or slip-.
 inline bool Slips(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }
 
-// r_t = ratio * r_n of a slipping contact; 0 in the other states.
-double SlipRatio(ContactState state, double friction);
+inline int NumberOf(ContactState state) { return static_cast<int>(state); }
+inline ContactState StateOf(const Mode& mode) { return static_cast<ContactState>(mode.state); }
 
-// The state, and the patch of the surface on which gap and xi are taken (geometry/surface.h).
-struct ContactMode {
-  ContactState state = ContactState::kOpen;
-  int patch = 0;
-};
-
-inline bool operator==(const ContactMode& a, const ContactMode& b) { return a.state == b.state && a.patch == b.patch; }
-inline bool operator<(const ContactMode& a, const ContactMode& b) {
-  return std::tie(a.state, a.patch) < std::tie(b.state, b.patch);
+// Contacts are the first laws of a structure, in scene order, with two ports each: their shares of a point.
+inline ContactState StateOf(const PathPoint& point, std::size_t contact) { return StateOf(point.modes[contact]); }
+inline double NormalReaction(const PathPoint& point, std::size_t contact) {
+  return point.forces[2 * static_cast<Eigen::Index>(contact)];
 }
-
-using ContactModes = std::vector<ContactMode>;  // by candidate
-
-inline bool HasState(const ContactModes& modes, ContactState state) {
-  return std::any_of(modes.begin(), modes.end(), [state](const ContactMode& mode) { return mode.state == state; });
+inline double TangentialReaction(const PathPoint& point, std::size_t contact) {
+  return point.forces[2 * static_cast<Eigen::Index>(contact) + 1];
 }
-
-inline std::vector<ContactState> StatesOf(const ContactModes& modes) {
-  std::vector<ContactState> states;
-  states.reserve(modes.size());
-  for (const ContactMode& mode : modes) states.push_back(mode.state);
-  return states;
+inline void SetReaction(std::size_t contact, double rn, double rt, PathPoint* point) {
+  point->forces.segment<2>(2 * static_cast<Eigen::Index>(contact)) << rn, rt;
 }
-
-inline std::vector<int> PatchesOf(const ContactModes& modes) {
-  std::vector<int> patches;
-  patches.reserve(modes.size());
-  for (const ContactMode& mode : modes) patches.push_back(mode.patch);
-  return patches;
-}
+std::vector<ContactState> ContactStatesOf(const Modes& modes, std::size_t contacts);
 
 }  // namespace contact_path
 

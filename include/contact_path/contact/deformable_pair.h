@@ -21,8 +21,8 @@ class DeformablePair : public ContactPair {
   DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
                  const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
 
-  PairDofs Dofs(int patch) const override;
-  void Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference, Kinematics* kinematics) const override;
+  LawDofs Dofs(int patch) const override;
+  void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference, PortsAt* ports) const override;
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
   // The distance is less by the radius than that from the spline: of a node within the radius it is below 0.
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
@@ -30,14 +30,16 @@ class DeformablePair : public ContactPair {
   int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
   bool HasPatch(int patch) const override;
   XiRange RangeOf(int patch) const override;
-  void ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt, const PairVector& weights,
-                    PairMatrix* hessian) const override;
-  PairVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                               const PairVector& direction) const override;
-  Eigen::Vector3d SlipFactorAlong(const Eigen::VectorXd& u, double s, int patch, const PairVector& first,
-                                  const PairVector& second) const override;
-  double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
-              int patch_after) const override;
+  void ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces, const LawVector& weights,
+                    LawMatrix* hessian) const override;
+  LawVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
+                              const LawVector& direction) const override;
+  Eigen::Vector3d FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int patch, const LawVector& first,
+                                  const LawVector& second) const override;
+  // Of the tangential port the mean of two lengths between both feet, on the shapes of the surface before and after;
+  // past an end of the surface, the foot is its end.
+  double Travel(std::size_t port, const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
+                int patch_after) const override;
   bool Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& after, int patch) const override;
 
  private:

@@ -36,15 +36,15 @@ class RigidPair : public ContactPair {
             const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
             const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt);
 
-  void Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference, Kinematics* kinematics) const override;
+  void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference, PortsAt* ports) const override;
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
   int PatchAt(const Eigen::VectorXd& u, double s) const override;
   int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
   bool HasPatch(int patch) const override { return surface_->HasPatch(patch); }
   XiRange RangeOf(int patch) const override { return RangeBeside(*surface_, patch); }
-  void ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt, const PairVector& direction,
-                    PairMatrix* derivative) const override;
+  void ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces, const LawVector& direction,
+                    LawMatrix* derivative) const override;
 
  private:
   using Motion = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 3>;
@@ -66,7 +66,7 @@ class RigidPair : public ContactPair {
   Eigen::Vector2d about_;
   // Of a flat surface: offset + gradient . q.
   double gap_offset_ = 0.0, xi_offset_ = 0.0;
-  PairVector gap_gradient_, xi_gradient_;
+  LawVector gap_gradient_, xi_gradient_;
   mutable int nearest_ = -1;  // what was nearest last: where the next search begins, whatever it finds
 };
 

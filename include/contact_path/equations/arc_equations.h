@@ -6,8 +6,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "contact_path/equations/constraint.h"
 #include "contact_path/equations/jet.h"
+#include "contact_path/law/mode.h"
 #include "contact_path/linear/frame.h"
 
 namespace contact_path {
@@ -34,22 +34,22 @@ class ArcEquations {
 
   // Limits that a step of this length from x may reach. near: functions at whose zero an increment is wanted, and
   // nothing fails.
-  virtual std::vector<Constraint> LimitsInReach(const Eigen::VectorXd& x, double reach,
-                                                std::vector<Constraint>* near) = 0;
+  virtual std::vector<Limit> LimitsInReach(const Eigen::VectorXd& x, double reach,
+                                                std::vector<Limit>* near) = 0;
   // Whether a limit is broken at x that the last LimitsInReach() did not name.
   virtual bool BeyondReach(const Eigen::VectorXd& /*x*/) const { return false; }
   // Whether the rate of the limit has to stay >= 0, and not its value.
-  virtual bool IsOfRate(const Constraint& limit) const = 0;
-  virtual double Value(const Constraint& limit, const Eigen::VectorXd& x) const = 0;
+  virtual bool IsOfRate(const Limit& limit) const = 0;
+  virtual double Value(const Limit& limit, const Eigen::VectorXd& x) const = 0;
   // By the unknowns.
-  virtual Eigen::VectorXd Gradient(const Constraint& limit, const Eigen::VectorXd& x) const = 0;
+  virtual Eigen::VectorXd Gradient(const Limit& limit, const Eigen::VectorXd& x) const = 0;
   // Along a curve with these derivatives at x.
-  virtual Jet ValueAlong(const Constraint& limit, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+  virtual Jet ValueAlong(const Limit& limit, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                          const Eigen::VectorXd& second) const = 0;
   // What tolerances of its values and rates are multiplied with.
-  virtual double UnitOf(const Constraint& /*limit*/) const { return 1.0; }
+  virtual double UnitOf(const Limit& /*limit*/) const { return 1.0; }
   // The rounding of its value: down to minus this it counts as holding. of_forces: of the unknowns that are no motion.
-  virtual double RoundingOf(const Constraint& limit, double of_forces) const = 0;
+  virtual double RoundingOf(const Limit& limit, double of_forces) const = 0;
 
   // Errors of points grow with it.
   virtual double ResidualUnit() const { return 1.0; }

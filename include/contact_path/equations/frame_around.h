@@ -1,4 +1,4 @@
-// The frame of the fixed-state systems of a structure.
+// The frame of the fixed-mode systems of a structure.
 #ifndef CONTACT_PATH_EQUATIONS_FRAME_AROUND_H_
 #define CONTACT_PATH_EQUATIONS_FRAME_AROUND_H_
 
@@ -6,16 +6,16 @@
 #include <cstddef>
 #include <vector>
 
-#include "contact_path/contact/contact_pair.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/linear/frame.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
-// framed: contacts that may touch, with rigid surfaces, ascending; tangent: its pattern counts. Unknowns: u, r_n and
-// r_t of each contact of `framed`, reactions of the prescribed components, s. Equations: equilibrium, u_n and xi of
-// each contact, prescribed components. Where a system stands in it is left open.
-Frame FrameAround(const Structure& structure, const ContactPairs& contacts, const std::vector<std::size_t>& framed,
+// framed: laws that may act, whose dofs do not depend on the piece, ascending; tangent: its pattern counts. Unknowns: u,
+// the forces of the ports of each law of `framed`, reactions of the prescribed components, s. Equations: equilibrium,
+// the motions of these ports, prescribed components. Where a system stands in it is left open.
+Frame FrameAround(const Structure& structure, const Laws& laws, const std::vector<std::size_t>& framed,
                   const Eigen::SparseMatrix<double>& tangent);
 
 }  // namespace contact_path

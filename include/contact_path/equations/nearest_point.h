@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 
 namespace contact_path {
 
@@ -18,7 +18,7 @@ struct NearestPoint {
 // The solution x of `system` whose (u, s) is nearest to `wanted` (NumDofs() + 1 entries), from `start`: Gauss-Newton
 // steps of minimum norm, so redundant equations and rigid modes are no obstacle. Converged: steps at rounding level,
 // equations solved.
-NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& start, const Eigen::VectorXd& wanted);
+NearestPoint FindNearestPoint(FixedModeSystem* system, const Eigen::VectorXd& start, const Eigen::VectorXd& wanted);
 
 }  // namespace contact_path
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/mpec/nonlinear_program.h"
 #include "contact_path/structure/structure.h"
 
@@ -41,9 +41,9 @@ class IncrementProblem : public NonlinearProgram {
 
   void SetRegularisation(double eps) { eps_ = eps; }
 
-  // Variables for the guess from + S y with these reactions of the contacts; without any, with those of `from`.
-  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y, const Eigen::VectorXd& rn, const Eigen::VectorXd& rt) const;
-  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const { return StartingPoint(y, from_.rn, from_.rt); }
+  // Variables for the guess from + S y with the reactions of the contacts at a point; without any, with those of `from`.
+  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y, const PathPoint& reactions) const;
+  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const { return StartingPoint(y, from_); }
   // For a point that solves the equations of its states, is stationary for (9) on them and keeps their inequalities:
   // the variables and multipliers next to it that solve (10) with this barrier parameter, to the first order of the
   // regularisation. Nothing where the equations are singular.
@@ -73,8 +73,8 @@ class IncrementProblem : public NonlinearProgram {
   struct Slot {
     const ContactPair* pair;
     int start_patch;              // where the increment starts
-    PairDofs dofs;                // of the patches that it may end on
-    Kinematics at_start;          // of the increment
+    LawDofs dofs;                // of the patches that it may end on
+    PortsAt at_start;          // of the increment
     double reference;             // value of xi from which slip is measured: ContactPair::SlipReference()
     Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
     Eigen::Index gap_row;         // constraints: gap, gap r_n
@@ -96,7 +96,7 @@ class IncrementProblem : public NonlinearProgram {
   std::vector<Zeros> ZerosAt(const PathPoint& point, const Eigen::VectorXd& x) const;
   // By y and the dofs of the slot: gap and slip over S; gradients as they are, Hessians and the gradient of the slip
   // factor times S.
-  Kinematics ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;
+  PortsAt ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;
   // Where the node is. The structure of the matrices is fixed: of a deformable surface, the next patches are prolonged.
   int PatchOf(const Slot& slot, const Eigen::VectorXd& u, double s) const;
   // Calls visit(variable, k) for each variable that moves a pair, its gap, its xi; k: its number in the q of the slot.
@@ -114,7 +114,7 @@ class IncrementProblem : public NonlinearProgram {
                            Emit emit) const;
   // What the curvature of a surface adds to the Hessian.
   template <typename Emit>
-  void ForEachCurvatureEntry(const Slot& slot, const Kinematics& at, const Eigen::VectorXd& x,
+  void ForEachCurvatureEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
                              const Eigen::VectorXd& multipliers, Emit emit) const;
 
   const Structure& structure_;

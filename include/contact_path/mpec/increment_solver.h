@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
-#include "contact_path/contact/reach_tracker.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/law/path_point.h"
+#include "contact_path/law/reach_tracker.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/mpec/increment_problem.h"
 #include "contact_path/mpec/nonlinear_program.h"
 #include "contact_path/structure/structure.h"
@@ -44,7 +44,7 @@ class IncrementSolver {
   static constexpr double kLongestIncrement = 2.5;
 
   // All must outlive the solver.
-  IncrementSolver(const Structure& structure, const ContactPairs& contacts, NonlinearSolver* solver);
+  IncrementSolver(const Structure& structure, const ContactPairs& contacts, const Laws& laws, NonlinearSolver* solver);
 
   // From `from`, an equilibrium. Candidates out of reach are left out of the problem; where the gap of such a
   // candidate turns negative, the increment is solved again with the candidate.
@@ -72,8 +72,9 @@ class IncrementSolver {
 
   const Structure& structure_;
   const ContactPairs& contacts_;
+  const Laws& laws_;
   NonlinearSolver* solver_;
-  FixedStateSystem system_;
+  FixedModeSystem system_;
   ReachTracker tracker_;
 };
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "contact_path/branch/arc_step.h"
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/work.h"
@@ -21,13 +21,13 @@ struct BalancedStep {
 // The next step, of up to this length, short enough for the energies to tell, too: where only soft parts move, the load
 // may change along the step by far more than what its predictor shows. stored: strain energy at its start, if known.
 // Nothing: no step is accepted.
-std::optional<BalancedStep> NextBalancedStep(const Model& model, const BranchOptions& options, ContactArc* arc,
+std::optional<BalancedStep> NextBalancedStep(const Model& model, const BranchOptions& options, ModeArc* arc,
                                              const CurvePoint& from, double length, const StepEnds& ends,
                                              std::optional<double> stored);
 
 // Fills in the energies. Whether the work of the loads is what the strain energy gains and friction takes, up to a
 // share that a step may be off by.
-bool Balance(const Model& model, const FixedStateSystem& system, std::optional<double> stored, BalancedStep* step);
+bool Balance(const Model& model, const FixedModeSystem& system, std::optional<double> stored, BalancedStep* step);
 
 }  // namespace contact_path
 

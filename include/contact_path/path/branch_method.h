@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/path/balanced_step.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
@@ -101,7 +101,7 @@ class BranchMethod : public PathMethod {
   const std::function<bool()> cancelled_;
   MachineLimit limit_;
   Departure departure_;
-  ContactArc arc_;
+  ModeArc arc_;
   StepEnds ends_;
   CurvePoint current_;
   double step_length_;

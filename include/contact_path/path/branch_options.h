@@ -10,7 +10,7 @@
 
 #include "contact_path/branch/arc_target.h"
 #include "contact_path/branch/trial_step.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/return_detector.h"
 #include "contact_path/scene/scene.h"
@@ -34,7 +34,7 @@ struct BranchOptions {
   bool forward = false;                    // BranchRule::kForward
   std::optional<double> load_factor = {};  // at which the path is to end
   // Quantities of the system whose values get increments of their own; empty: none.
-  std::function<ArcTargets(const FixedStateSystem& system)> watch = {};
+  std::function<ArcTargets(const FixedModeSystem& system)> watch = {};
   int increments = 0;                 // given before this path, of which it goes on
   int events = 0;                     // passed before this path
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end

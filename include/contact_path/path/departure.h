@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/branch/path_parameter.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/largest_reaction.h"
@@ -29,7 +29,7 @@ struct DepartureOptions {
 };
 
 // Adds what an event has on record of these branches.
-void RecordBranches(const std::vector<Branch>& branches, EventRecord* record);
+void RecordBranches(const Model& model, const std::vector<Branch>& branches, EventRecord* record);
 
 // Index of the branch that was chosen, or else of the preferred one; nothing, and *end, where there is no such branch.
 std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
@@ -48,7 +48,7 @@ class Departure {
   Arrival StartArrival() const;
   // Finds the branches from `point`, an equilibrium, and puts *arc and *current, with which the path arrives there,
   // where it sets out on one of them: on the one chosen, or the best. Nothing: done. Otherwise the path ends.
-  std::optional<End> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, ContactArc* arc,
+  std::optional<End> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, ModeArc* arc,
                            CurvePoint* current, EventRecord* record);
 
   // Whether the branch that was taken last begins with other reactions than the point has, and these, once.
@@ -65,8 +65,8 @@ class Departure {
   const Causes& AtEnds() const { return at_ends_; }
 
  private:
-  bool SetOut(const PathPoint& point, const Branch& branch, ContactArc* arc, CurvePoint* current) const;
-  End UnknownRate(const Constraint& constraint, const FixedStateSystem& system, const CurvePoint& at) const;
+  bool SetOut(const PathPoint& point, const Branch& branch, ModeArc* arc, CurvePoint* current) const;
+  End UnknownRate(const Limit& limit, const FixedModeSystem& system, const CurvePoint& at) const;
 
   const Model& model_;
   DepartureOptions options_;

@@ -57,6 +57,11 @@ Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint
 // else empty.
 Causes StandsAtEnd(const Model& model, const PathPoint& point);
 
+// Why a path ends where a law that bears comes to the end of its pieces.
+Cause SlidesOffCause(const Model& model, const Limit& limit);
+// Of a limit whose rate has no sign: it is no more than `tolerance`. Both in scene units.
+Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, double tolerance);
+
 // Names an open contact whose node has come past an end of its boundary and is behind the boundary; else empty. point:
 // where to look, scaled.
 Causes BehindBoundary(const Model& model, const PathPoint& point);

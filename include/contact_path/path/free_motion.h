@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/model.h"
 
 namespace contact_path {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 
 namespace contact_path {
 
@@ -14,8 +14,8 @@ struct LargestReactionSoFar {
   double of_trace = 0.0;
   double of_stage = 0.0;  // set to 0 where a stage begins
 
-  void Note(const ContactPairs& contacts, const PathPoint& point) {
-    of_stage = std::max(of_stage, LargestReaction(contacts, point));
+  void Note(const Laws& laws, const PathPoint& point) {
+    of_stage = std::max(of_stage, laws.LargestForce(point));
     of_trace = std::max(of_trace, of_stage);
   }
 };

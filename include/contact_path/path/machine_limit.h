@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/branch/path_parameter.h"
 #include "contact_path/branch/step.h"
 #include "contact_path/path/branch_options.h"

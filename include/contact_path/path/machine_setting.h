@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "contact_path/branch/path_parameter.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/model.h"
 #include "contact_path/stability/machine.h"
 

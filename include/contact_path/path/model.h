@@ -7,7 +7,7 @@
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/response/contact_pressure.h"
 #include "contact_path/response/element_response.h"
@@ -59,8 +59,8 @@ struct Model {
   // x0, y0, x1, ... over the nodes of a motion of the unknowns, NumDofs() or more entries: 0 where nothing is free.
   std::vector<double> ComponentsOf(const Eigen::VectorXd& motion) const;
 
-  // Puts each candidate on the patch of its surface that is nearest.
-  void NotePatches(PathPoint* point) const;
+  // Puts each law on the piece where it is, in its state.
+  void NotePieces(PathPoint* point) const;
 
   const Scene scene;       // as the user wrote it
   const SceneIndex index;  // of the scene: the scaled one has the same names
@@ -70,6 +70,7 @@ struct Model {
   const Scene scaled;
   const Structure structure;    // of the scaled scene
   const ContactPairs contacts;  // of the scaled scene
+  const Laws laws;              // the contacts first
   const ReactionProblem reactions;
   const ResidualCheck check;  // of the scene
 

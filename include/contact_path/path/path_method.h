@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/work.h"

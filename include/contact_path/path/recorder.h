@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/increment_lists.h"
 #include "contact_path/path/model.h"

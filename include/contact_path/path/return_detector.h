@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/branch/contact_arc.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/branch/mode_arc.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/model.h"
@@ -52,10 +52,10 @@ class ReturnDetector {
 
   int spacing_;
   std::vector<Reference> references_;  // in the order of the path
-  ContactArc arc_;
+  ModeArc arc_;
   std::optional<PathPoint> first_;
   double extent_ = 0.0;  // largest distance from the first point
-  const ContactPairs& contacts_;
+  const Laws& laws_;
   const LargestReactionSoFar& largest_reaction_;
 };
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "contact_path/branch/step.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/model.h"
 #include "contact_path/stability/machine.h"
@@ -18,7 +18,7 @@ class StabilityMonitor {
  public:
   // model must outlive the monitor.
   StabilityMonitor(const Model& model, const Machine& machine)
-      : model_(model), machine_(machine), problem_(model.structure, model.contacts) {}
+      : model_(model), machine_(machine), problem_(model.structure, model.laws) {}
 
   // The next increment. at: the curve on which it was reached. null_directions: of the tangent at fixed load factor,
   // columns du, where it is known to be singular; else no columns. falls: n0, where the factors of the arc tell.

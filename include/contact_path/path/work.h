@@ -3,8 +3,8 @@
 #define CONTACT_PATH_PATH_WORK_H_
 
 #include "contact_path/branch/step.h"
-#include "contact_path/contact/path_point.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/law/path_point.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/path/model.h"
 
 namespace contact_path {
@@ -21,7 +21,7 @@ struct Work {
 Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint& to);
 
 // Of a step on an arc of the system: exact for the interpolation of the step.
-Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& step);
+Work WorkOfStep(const Model& model, const FixedModeSystem& system, const Step& step);
 
 }  // namespace contact_path
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "contact_path/contact/path_point.h"
+#include "contact_path/contact/contact_state.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"

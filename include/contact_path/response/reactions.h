@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"

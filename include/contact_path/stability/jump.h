@@ -9,31 +9,30 @@
 #include <functional>
 #include <optional>
 
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/stability/machine.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
 // What resists the motion. A node has one coefficient for all directions of its position, which makes velocities unique
-// for every friction coefficient.
+// for every ratio of ports that follow.
 enum class Drag {
   kUniform,    // C = 1 for every unknown
   kStiffness,  // C = the largest diagonal stiffness of the node at the start, over the largest of all nodes
   kInertia,    // mass 1 for every unknown, and light uniform drag
 };
 
-// Scaled. The work of the loads is stored, taken by friction, and released: taken by drag.
+// Scaled. The work of the loads is stored, dissipated by what slides, and released: taken by drag.
 struct Landing {
   // Newton's method has converged on the equations of equilibrium; it is stable under the machine, or where that is not
   // proved, small disturbances come back.
   PathPoint point;
-  double friction = 0.0;  // work against friction along the way [force length]; by the incremental law >= 0
+  double dissipated = 0.0;  // by what slides along the way [force length]; unless a law is holonomic >= 0
   double loads = 0.0;     // of all loads, constant and scaled
   double stored = 0.0;    // strain energy gained
 
-  double energy_released() const { return std::max(0.0, loads - friction - stored); }
+  double energy_released() const { return std::max(0.0, loads - dissipated - stored); }
 };
 
 struct JumpResult {
@@ -48,7 +47,7 @@ struct JumpResult {
 
 // push: the direction (u) in which the structure is disturbed, NumDofs(); its length does not matter. Both signs are
 // tried, + first. checked: the other drags are tried, too.
-JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
+JumpResult Jump(const Structure& structure, const Laws& laws, const PathPoint& from,
                 const Eigen::VectorXd& push, const Machine& machine, bool checked,
                 const std::function<bool()>& cancelled);
 

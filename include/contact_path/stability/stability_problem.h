@@ -1,4 +1,4 @@
-// Whether an equilibrium with contacts and friction, at rest, is stable.
+// Whether an equilibrium with laws that slide, at rest, is stable.
 #ifndef CONTACT_PATH_STABILITY_STABILITY_PROBLEM_H_
 #define CONTACT_PATH_STABILITY_STABILITY_PROBLEM_H_
 
@@ -6,9 +6,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/path_point.h"
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/law/laws.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/symmetric_factors.h"
 #include "contact_path/stability/verdict.h"
@@ -23,44 +22,43 @@ struct Stability {
   Eigen::VectorXd direction;  // one of them, of unit norm; empty = none is known
 };
 
-// A disturbance grows by divergence if for some growth rate a >= 0 there are motions v and changes rho of the reactions
-// other than 0 with
+// A disturbance grows by divergence if for some growth rate a >= 0 there are motions v and changes rho of the forces of
+// the ports other than 0 with
 //   (a^2 M + a C + K) v = N rho_n + T rho_t
-// K: tangent at fixed load factor, contacts' curvature included (Martins, Barbarin, Raous & Pinto da Costa 1999).
-//   inside the cone (D): v_n = v_t = 0; without friction: v_n = 0
-//   at the edge of the cone, sliding or about to with the sense sigma (S):
+// n, t: leading port and port that follows it. K: tangent at fixed load factor, curvature of laws included (Martins, Barbarin, Raous & Pinto da Costa 1999).
+//   what is held (D): v = 0
+//   sliding or about to with the sense sigma, at the edge of a cone mu (S):
 //     v_n = 0, 0 <= z = sigma v_t, 0 <= w = sigma rho_t + mu rho_n, z w = 0
 // M and C: of nodes, equal in both directions of a node. With K condensed onto the slips z, w = H z.
 //
 // Unstable, whatever M and C are: the degree of this problem at a = 0 is not 1, its degree for large a. The degree is
-// (-1)^n0 times that of H, n0: negative eigenvalues of K where S sticks. Without S also where n0 is even, and not 0,
-// and with one contact in S where n0 is not 0: one of the senses of a mode keeps w >= 0. Stable, whatever masses and
-// drags the nodes of the contacts S have, if all other nodes follow at once: sym H is strictly copositive, since z .
-// (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of other nodes may let contacts go that H holds.
+// (-1)^n0 times that of H, n0: negative eigenvalues of K where S is held. Without S also where n0 is even, and not 0,
+// and with one port in S where n0 is not 0: one of the senses of a mode keeps w >= 0. Stable, whatever masses and
+// drags the nodes of S have, if all other nodes follow at once: sym H is strictly copositive, since z .
+// (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of other nodes may let go what H holds.
 class StabilityProblem {
  public:
   // Both must outlive the problem.
-  StabilityProblem(const Structure& structure, const ContactPairs& contacts);
+  StabilityProblem(const Structure& structure, const Laws& laws);
 
-  // Looks at an equilibrium inside an arc, or at an end of it with the states of the arc: contacts that slip are S, all
-  // others that stick are D. null_directions: of the tangent, columns du, where the equations are known to be
+  // Looks at an equilibrium inside an arc, or at an end of it with the modes of the arc: ports that follow are S, all
+  // that are held are D. null_directions: of the tangent, columns du, where the equations are known to be
   // singular; else none.
   void Set(const PathPoint& point, const Eigen::MatrixXd& null_directions);
 
   // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
   // control. Without reference loads the machine is rigid already: as with dead loads.
   Stability Under(double compliance) const;
-  // Whether the tangent is symmetric at a point with these states: no contact slides, or sticks where it is curved.
-  bool IsSymmetric(const PathPoint& point) const;
-  // Whether contacts are at the edge of their cones.
+  // Whether the tangent is symmetric in these modes.
+  bool IsSymmetric(const Modes& modes) const;
+  // Whether something slides.
   bool HasSlips() const { return !slips_.empty(); }
 
  private:
   struct Slip {
-    std::size_t contact;
     double sense;  // sigma
-    double friction;
-    Eigen::Index normal, tangent;  // unknowns of its reactions among those of the saddle
+    double ratio;  // mu
+    Eigen::Index leading, following;  // unknowns of the forces of its ports among those of the saddle
   };
 
   void Classify(const PathPoint& point);
@@ -74,19 +72,19 @@ class StabilityProblem {
   Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
 
   const Structure& structure_;
-  const ContactPairs& contacts_;
-  FixedStateSystem system_;
+  const Laws& laws_;
+  FixedModeSystem system_;
   SymmetricFactors factors_;
   BorderedSolver unsymmetric_;
 
   std::vector<Slip> slips_;
-  bool covered_ = true;                                      // by the theory: no contact with the total law of friction
+  bool covered_ = true;                                      // by the theory: no holonomic law
   bool regular_ = false;                                     // the saddle is
   bool singular_ = false;                                    // the point is known to be
   bool symmetric_ = true;                                    // K is
-  Eigen::SparseMatrix<double> saddle_, stiffness_, forces_;  // symmetric K and columns of reactions
+  Eigen::SparseMatrix<double> saddle_, stiffness_, forces_;  // symmetric K and columns of forces
   Eigen::Index negative_ = 0;      // n0; where the point is singular, besides its null direction
-  int sign_ = 1;                   // of det K where S sticks
+  int sign_ = 1;                   // of det K where S is held
   double load_compliance_ = 0.0;   // f . by_load_
   double stiff_compliance_ = 0.0;  // the same if only components that are loaded moved, one at a time
   Eigen::VectorXd by_load_;        // du by a unit of s

@@ -1,4 +1,4 @@
-#include "contact_path/branch/reaction_redistribution.h"
+#include "contact_path/branch/force_redistribution.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "contact_path/scene/scaling.h"
 #include "support/kinematics.h"
 
-namespace contact_path::reaction_redistribution_test {
+namespace contact_path::force_redistribution_test {
 namespace {
 
 constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
@@ -27,9 +27,7 @@ struct Corner {
       : Corner(SceneOf(obstacles, false), obstacles.size(), slipped) {}
   Corner(const Scene& scene, std::size_t contacts, std::optional<double> slipped)
       : model(scene, ConfigurationOf(scene, contacts, slipped), Scaling()), point(model.InitialPoint()) {
-    const auto count = static_cast<Eigen::Index>(contacts);
-    point.rn = Eigen::VectorXd::Zero(count);
-    point.rt = Eigen::VectorXd::Zero(count);
+    point.forces.setZero();
   }
 
   static Scene SceneOf(const std::vector<Obstacle>& obstacles, bool fixed_x) {
@@ -52,23 +50,24 @@ struct Corner {
   Eigen::Vector2d Force(const PathPoint& with) const {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(2);
     for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-      const Kinematics at = KinematicsAt(*model.contacts[i], with.u, with.s);
-      at.AddForce(at.gap_gradient, with.rn[static_cast<Eigen::Index>(i)], &force);
-      at.AddForce(at.xi_gradient, with.rt[static_cast<Eigen::Index>(i)], &force);
+      const PortsAt at = KinematicsAt(*model.contacts[i], with.u, with.s);
+      at.AddForce(at[kNormal].gradient, NormalReaction(with, i), &force);
+      at.AddForce(at[kTangent].gradient, TangentialReaction(with, i), &force);
     }
     return force;
   }
 
   // What is found; each must hold the same force within all cones.
   std::vector<PathPoint> Others() const {
-    const ReactionRedistributions found = FindReactionRedistributions(model.contacts, point, ActiveSetTolerance());
+    const ForceRedistributions found = FindForceRedistributions(model.laws, point, ActiveSetTolerance());
     EXPECT_TRUE(found.complete);
     for (const PathPoint& other : found.points) {
       EXPECT_NEAR((Force(other) - Force(point)).norm(), 0.0, 1e-12);
-      EXPECT_GE(other.rn.minCoeff(), 0.0);
-      for (Eigen::Index i = 0; i < other.rn.size(); ++i)
-        EXPECT_LE(std::abs(other.rt[i]),
-                  model.contacts[static_cast<std::size_t>(i)]->Friction() * other.rn[i] * (1.0 + 1e-12));
+      for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+        const double rn = NormalReaction(other, i);
+        EXPECT_GE(rn, 0.0);
+        EXPECT_LE(std::abs(TangentialReaction(other, i)), model.contacts[i]->Friction() * rn * (1.0 + 1e-12));
+      }
       EXPECT_EQ(other.u, point.u);
       EXPECT_EQ(other.s, point.s);
     }
@@ -82,99 +81,92 @@ struct Corner {
 // rn and rt of both contacts.
 bool Holds(const std::vector<PathPoint>& points, const std::array<double, 4>& reactions) {
   return std::any_of(points.begin(), points.end(), [&](const PathPoint& point) {
-    return std::abs(point.rn[0] - reactions[0]) + std::abs(point.rt[0] - reactions[1]) +
-               std::abs(point.rn[1] - reactions[2]) + std::abs(point.rt[1] - reactions[3]) <
+    return (point.forces - Eigen::Map<const Eigen::Vector4d>(reactions.data())).lpNorm<1>() <
            1e-12;
   });
 }
 
-TEST(ReactionRedistributions, NoneWhereReactionsAreUnique) {
+TEST(ForceRedistributions, NoneWhereReactionsAreUnique) {
   Corner rough({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}});
-  rough.point.rn[0] = 2.0;
-  rough.point.rt[0] = 0.3;
+  rough.point.forces.head<2>() << 2.0, 0.3;
   EXPECT_TRUE(rough.Others().empty());
   Corner smooth({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}, {"wall", kHalfPlane, 0.0, 0.0, 1.0, 0.0, 0.0}});
-  smooth.point.rn << 2.0, 1.0;
+  smooth.point.forces << 2.0, 0.0, 1.0, 0.0;
   EXPECT_TRUE(smooth.Others().empty());
 }
 
-TEST(ReactionRedistributions, NoneOfWhatDoesNotTouch) {
+TEST(ForceRedistributions, NoneOfWhatDoesNotTouch) {
   Corner corner({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"deep", kHalfPlane, 0.0, -1.0, 0.0, 1.0, 0.0}});
-  corner.point.rn[0] = 1.0;
+  corner.point.forces[0] = 1.0;
   EXPECT_TRUE(corner.Others().empty());
 }
 
 // By the total law of friction the slip tells the force on the belt, and with it the one at the stop.
-TEST(ReactionRedistributions, TotalLawThatHasSlipped) {
+TEST(ForceRedistributions, TotalLawThatHasSlipped) {
   const std::vector<Obstacle> obstacles = {{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3},
                                            {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}};
   Corner back(obstacles, -0.5);
-  back.point.rn << 2.0, 0.6;
-  back.point.rt << 0.6, 0.0;
+  back.point.forces << 2.0, 0.6, 0.6, 0.0;
   EXPECT_TRUE(back.Others().empty());
   Corner forth(obstacles, 0.5);
-  forth.point.rn << 2.0, 0.0;
-  forth.point.rt << -0.6, 0.0;
+  forth.point.forces << 2.0, -0.6, 0.0, 0.0;
   EXPECT_TRUE(forth.Others().empty());
   Corner rest(obstacles, 0.0);
-  rest.point.rn << 2.0, 0.6;
-  rest.point.rt << 0.6, 0.0;
+  rest.point.forces << 2.0, 0.6, 0.6, 0.0;
   EXPECT_TRUE(Holds(rest.Others(), {2.0, 0.0, 0.0, 0.0}));
 }
 
 // A lift at a table, along both of which the node has slipped: the lift takes over the force that it would have, too.
-TEST(ReactionRedistributions, TotalLawOnBothSides) {
+TEST(ForceRedistributions, TotalLawOnBothSides) {
   const std::vector<Obstacle> obstacles = {{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3},
                                            {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
   for (const double slipped : {-0.5, 0.5}) {
     Corner corner(obstacles, slipped);
     const double friction = slipped > 0.0 ? -0.6 : 0.6;
-    corner.point.rn << 2.0, 0.0;
-    corner.point.rt << friction, 0.0;
+    corner.point.forces << 2.0, friction, 0.0, 0.0;
     EXPECT_TRUE(Holds(corner.Others(), {0.0, 0.0, 2.0, friction})) << slipped;
   }
 }
 
 // A smooth slope and a rough floor: once the node has slipped along the floor, its friction is at an edge of the cone,
 // and is no longer what holds the force inside of the cone.
-TEST(ReactionRedistributions, TotalLawOfTheOneThatWouldTakeOver) {
+TEST(ForceRedistributions, TotalLawOfTheOneThatWouldTakeOver) {
   const std::vector<Obstacle> obstacles = {{"smooth", kHalfPlane, 0.0, 0.0, -1.0, 1.0, 0.0},
                                            {"rough", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 1.2}};
   for (const double slipped : {-0.5, 0.0, 0.5}) {
     Corner corner(obstacles, slipped);
-    corner.point.rn << std::sqrt(2.0), 0.0;
+    corner.point.forces << std::sqrt(2.0), 0.0, 0.0, 0.0;
     EXPECT_EQ(Holds(corner.Others(), {0.0, 0.0, 1.0, -1.0}), slipped == 0.0) << slipped;
   }
 }
 
 // A friction of rounding bears nothing that a frictionless contact would not.
-TEST(ReactionRedistributions, FrictionOfRounding) {
+TEST(ForceRedistributions, FrictionOfRounding) {
   Corner corner({{"one", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 1e-12}, {"other", kHalfPlane, 0.0, 0.0, 1e-4, 1.0, 1e-12}});
-  corner.point.rn << 1.0, 0.0;
-  corner.point.rt << 1e-12, 0.0;
+  corner.point.forces << 1.0, 1e-12, 0.0, 0.0;
   EXPECT_TRUE(corner.Others().empty());
 }
 
 // Between two walls that face each other nothing need press; what they press is not bounded, but its vertices are.
-TEST(ReactionRedistributions, Wedge) {
+TEST(ForceRedistributions, Wedge) {
   Corner corner({{"left", kHalfPlane, 0.0, 0.0, 1.0, 0.0, 0.5}, {"right", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.5}});
-  corner.point.rn << 1.0, 1.0;
+  corner.point.forces << 1.0, 0.0, 1.0, 0.0;
   const std::vector<PathPoint> others = corner.Others();
   ASSERT_EQ(others.size(), 1u);
   EXPECT_TRUE(Holds(others, {0.0, 0.0, 0.0, 0.0}));
 }
 
 // Friction along a component that is free, a normal along one that is not: the floor presses with nothing or anything.
-TEST(ReactionRedistributions, HalfFixedNode) {
+TEST(ForceRedistributions, HalfFixedNode) {
   Corner corner({{"slope", kHalfPlane, 0.0, 0.0, 1.0, 1.0, 0.5}}, true);
-  corner.point.rn[0] = 1.0;
+  corner.point.forces[0] = 1.0;
   const std::vector<PathPoint> others = corner.Others();
   const double force = corner.Force(corner.point)[0];
   EXPECT_FALSE(others.empty());
   for (const PathPoint& other : others) EXPECT_NEAR(corner.Force(other)[0], force, 1e-12);
 }
 
-TEST(ReactionRedistributions, CombinationsOfTwoNodes) {
+TEST(ForceRedistributions, CombinationsOfTwoNodes) {
   Scene scene = Corner::SceneOf(
       {{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}, {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}}, false);
   scene.nodes.push_back({"q", 0.0, 0.0, false, false});
@@ -183,12 +175,13 @@ TEST(ReactionRedistributions, CombinationsOfTwoNodes) {
   scene.contacts.push_back({"q", "stop"});
   const Model model(scene, Scaling());
   PathPoint point = model.InitialPoint();
-  point.rn = Eigen::Vector4d(1.0, 0.0, 2.0, 0.0);
-  point.rt = Eigen::Vector4d::Zero();
-  const ReactionRedistributions found = FindReactionRedistributions(model.contacts, point, ActiveSetTolerance());
+  point.forces.setZero();
+  point.forces[0] = 1.0;
+  point.forces[4] = 2.0;
+  const ForceRedistributions found = FindForceRedistributions(model.laws, point, ActiveSetTolerance());
   const auto holds = [&](double first, double second) {
     return std::any_of(found.points.begin(), found.points.end(), [&](const PathPoint& other) {
-      return std::abs(other.rn[1] - first) + std::abs(other.rn[3] - second) < 1e-12;
+      return std::abs(NormalReaction(other, 1) - first) + std::abs(NormalReaction(other, 3) - second) < 1e-12;
     });
   };
   EXPECT_TRUE(holds(0.3, 0.0));
@@ -198,4 +191,4 @@ TEST(ReactionRedistributions, CombinationsOfTwoNodes) {
 }
 
 }  // namespace
-}  // namespace contact_path::reaction_redistribution_test
+}  // namespace contact_path::force_redistribution_test

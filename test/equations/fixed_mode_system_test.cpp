@@ -1,4 +1,4 @@
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 
 #include "contact_path/contact/scene_contacts.h"
 #include "contact_path/linear/bordered_solver.h"
+#include "support/contact_points.h"
 #include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"
@@ -15,7 +16,7 @@
 #include "support/random.h"
 #include "support/reference_cases.h"
 
-namespace contact_path::fixed_state_system_test {
+namespace contact_path::fixed_mode_system_test {
 namespace {
 
 constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
@@ -34,8 +35,8 @@ class MixedSystem : public testing::Test {
     PathPoint point;
     point.u = structure_.Start() + random_.Vector(structure_.NumDofs(), -0.15, 0.15);
     point.s = random_.Number(-1.0, 1.0);
-    point.rn = random_.Vector(6, 0.1, 1.0);
-    point.rt = random_.Vector(6, -1.0, 1.0);
+    const Eigen::VectorXd rn = random_.Vector(6, 0.1, 1.0);
+    point.forces = ByPort(rn, random_.Vector(6, -1.0, 1.0));
     return point;
   }
   void ExpectJacobian(const std::string& what) {
@@ -55,28 +56,29 @@ class MixedSystem : public testing::Test {
   const Structure structure_{scene_};
   const ContactPairs contacts_ = BuildContacts(scene_, structure_);
   const Eigen::VectorXd reference_ = Eigen::VectorXd::LinSpaced(6, -0.4, 0.7);
-  FixedStateSystem system_{structure_, contacts_};
+  const Laws laws_ = LawsOf(contacts_);
+  FixedModeSystem system_{structure_, laws_};
   Random random_{4};
 };
 
 TEST_F(MixedSystem, StartsWithEverythingOpen) {
   EXPECT_EQ(system_.NumUnknowns(), structure_.NumDofs() + 1);
   EXPECT_EQ(system_.NumEquations(), structure_.NumDofs());
-  EXPECT_EQ(system_.states(), std::vector<State>(6, State::kOpen));
+  EXPECT_EQ(ContactStatesOf(system_.modes()), std::vector<State>(6, State::kOpen));
 }
 
 TEST_F(MixedSystem, CountsUnknownsAndEquations) {
   const std::vector<State> states = {State::kStick,     State::kClosed, State::kSlipPlus,
                                      State::kSlipMinus, State::kOpen,   State::kOpen};
-  system_.SetStates(states, reference_);
+  system_.SetModes(ModesOf(states), ByPort(reference_));
   // One r_n and one gap each of the four that touch, one r_t and one u_t of the one that sticks.
   EXPECT_EQ(system_.NumUnknowns(), 6 + 1 + 4 + 1);
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
   system_.FixLoadFactor(0.5);
   EXPECT_EQ(system_.NumEquations(), system_.NumUnknowns());
-  system_.SetActive({{0, Inequality::kConeMinus}, {3, Inequality::kSlip}});
+  system_.SetActive({{0, NumberOf(ContactLimit::kConeMinus)}, {3, NumberOf(ContactLimit::kSlip)}});
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1 + 1 + 2);
-  system_.SetStates(states, reference_);
+  system_.SetModes(ModesOf(states), ByPort(reference_));
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
 }
 
@@ -92,9 +94,9 @@ TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
       }
       states[i] = state;
       const std::string what = "contact " + std::to_string(i) + " " + std::string(ToString(state));
-      system_.SetStates(states, reference_);
+      system_.SetModes(ModesOf(states), ByPort(reference_));
       ExpectJacobian(what);
-      system_.SetActive(system_.Inequalities());
+      system_.SetActive(system_.Limits());
       ExpectJacobian(what + ", all active");
       system_.FixLoadFactor(0.3);
       ExpectJacobian(what + ", all and the load factor active");
@@ -107,11 +109,12 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
   const Scene scene = MovingScene();
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
-  FixedStateSystem system(structure, contacts);
+  const Laws laws = LawsOf(contacts);
+  FixedModeSystem system(structure, laws);
   Random random(5);
   const std::vector<State> states = {State::kStick,     State::kClosed, State::kSlipPlus,
                                      State::kSlipMinus, State::kStick,  State::kOpen};
-  system.SetStates(states, random.Vector(6, -0.4, 0.7));
+  system.SetModes(ModesOf(states), ByPort(random.Vector(6, -0.4, 0.7)));
   EXPECT_EQ(system.NumUnknowns(), 8 + 1 + 5 + 2 + 2);
   EXPECT_EQ(system.NumEquations(), 8 + 5 + 2 + 2);
   const Eigen::VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 1.0);
@@ -121,7 +124,7 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
     return value;
   };
   EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
-  for (const Constraint& limit : system.Inequalities()) {
+  for (const Limit& limit : system.Limits()) {
     const auto value = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, system.Value(limit, at)); };
     EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
   }
@@ -131,10 +134,10 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
   for (const PrescribedDof& prescribed : structure.PrescribedDofs()) dx[prescribed.dof] = prescribed.rate;
   double moved = 0.0, friction = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const Kinematics at = KinematicsAt(*contacts[i], point.u, point.s);
-    moved += point.rn[k] * at.Rate(at.gap_gradient, dx, 0.0) + point.rt[k] * at.Rate(at.xi_gradient, dx, 0.0);
-    friction += point.rn[k] * at.Rate(at.gap_gradient, dx, 1.0) + point.rt[k] * at.Rate(at.xi_gradient, dx, 1.0);
+    const double rn = NormalReaction(point, i), rt = TangentialReaction(point, i);
+    const PortsAt at = KinematicsAt(*contacts[i], point.u, point.s);
+    moved += rn * at.Rate(at[kNormal].gradient, dx, 0.0) + rt * at.Rate(at[kTangent].gradient, dx, 0.0);
+    friction += rn * at.Rate(at[kNormal].gradient, dx, 1.0) + rt * at.Rate(at[kTangent].gradient, dx, 1.0);
   }
   double supports = 0.0;
   for (std::size_t k = 0; k < structure.PrescribedDofs().size(); ++k)
@@ -156,17 +159,17 @@ class CurvedSystem : public testing::Test {
   const Scene scene_ = MovingScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = CurvedContacts(structure_);
-  FixedStateSystem system_{structure_, contacts_};
+  const Laws laws_ = LawsOf(contacts_);
+  FixedModeSystem system_{structure_, laws_};
   Random random_{9};
 };
 
 TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
   for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus}) {
     const State other = state == State::kStick ? State::kSlipPlus : State::kStick;
-    system_.SetStates({state, other, state, other, state == State::kOpen ? State::kOpen : State::kClosed},
-                      random_.Vector(5, -0.3, 0.3));
+    system_.SetModes(ModesOf({state, other, state, other, state == State::kOpen ? State::kOpen : State::kClosed}), ByPort(random_.Vector(5, -0.3, 0.3)));
     for (const bool active : {false, true}) {
-      if (active) system_.SetActive(system_.Inequalities());
+      if (active) system_.SetActive(system_.Limits());
       const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
       const auto residual = [&](const Eigen::VectorXd& at) {
         Eigen::VectorXd value;
@@ -186,24 +189,23 @@ TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
 }
 
 TEST_F(CurvedSystem, ValuesAlongACurveMeetDifferences) {
-  system_.SetStates({State::kSlipPlus, State::kStick, State::kSlipMinus, State::kSlipPlus, State::kOpen},
-                    random_.Vector(5, -0.3, 0.3));
+  system_.SetModes(ModesOf({State::kSlipPlus, State::kStick, State::kSlipMinus, State::kSlipPlus, State::kOpen}), ByPort(random_.Vector(5, -0.3, 0.3)));
   const Eigen::VectorXd x = RandomUnknowns(), first = random_.Vector(system_.NumUnknowns(), -1.0, 1.0),
                         second = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
   const auto on_curve = [&](double h) { return Eigen::VectorXd(x + h * first + 0.5 * h * h * second); };
   const auto velocity = [&](double h) { return Eigen::VectorXd(first + h * second); };
-  for (const Constraint& constraint : system_.Inequalities()) {
+  for (const Limit& limit : system_.Limits()) {
     const auto value = [&](const Eigen::VectorXd& at) {
-      return Eigen::VectorXd::Constant(1, system_.Value(constraint, at));
+      return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
     };
-    EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(constraint, x).transpose(), kDerivativeTolerance, kStep));
-    EXPECT_NEAR(system_.Rate(constraint, x, first), system_.Gradient(constraint, x).dot(first), 10.0 * kRounding);
+    EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit, x).transpose(), kDerivativeTolerance, kStep));
+    EXPECT_NEAR(system_.Rate(limit, x, first), system_.Gradient(limit, x).dot(first), 10.0 * kRounding);
     const auto along = [&](const Eigen::VectorXd& h) {
-      return Eigen::VectorXd::Constant(1, system_.Rate(constraint, on_curve(h[0]), velocity(h[0])));
+      return Eigen::VectorXd::Constant(1, system_.Rate(limit, on_curve(h[0]), velocity(h[0])));
     };
-    const Jet jet = system_.ValueAlong(constraint, x, first, second);
-    EXPECT_EQ(jet.value, system_.Value(constraint, x));
-    EXPECT_EQ(jet.first, system_.Rate(constraint, x, first));
+    const Jet jet = system_.ValueAlong(limit, x, first, second);
+    EXPECT_EQ(jet.value, system_.Value(limit, x));
+    EXPECT_EQ(jet.first, system_.Rate(limit, x, first));
     EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Constant(1, 1, jet.second),
                            kDerivativeTolerance, kStep));
   }
@@ -217,8 +219,7 @@ TEST_F(CurvedSystem, ValuesAlongACurveMeetDifferences) {
 }
 
 TEST_F(MixedSystem, PatternStaysTheSameBetweenEvaluations) {
-  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kStick, State::kClosed},
-                    reference_);
+  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kStick, State::kClosed}), ByPort(reference_));
   const Eigen::SparseMatrix<double> first = system_.TransposedJacobian(system_.Pack(RandomPoint()));
   const Eigen::SparseMatrix<double>& second = system_.TransposedJacobian(system_.Pack(RandomPoint()));
   ASSERT_EQ(first.nonZeros(), second.nonZeros());
@@ -229,22 +230,21 @@ TEST_F(MixedSystem, PatternStaysTheSameBetweenEvaluations) {
 TEST_F(MixedSystem, UnpackGivesEveryContactItsReactions) {
   const std::vector<State> states = {State::kStick,     State::kClosed, State::kSlipPlus,
                                      State::kSlipMinus, State::kOpen,   State::kOpen};
-  system_.SetStates(states, reference_);
+  system_.SetModes(ModesOf(states), ByPort(reference_));
   const PathPoint in = RandomPoint();
   const PathPoint out = system_.Unpack(system_.Pack(in));
   EXPECT_EQ(out.u, in.u);
   EXPECT_EQ(out.s, in.s);
-  EXPECT_EQ(out.states, states);
-  Eigen::VectorXd rn(6), rt(6);
-  rn << in.rn[0], in.rn[1], in.rn[2], in.rn[3], 0.0, 0.0;
-  rt << in.rt[0], 0.0, -0.3 * in.rn[2], 0.6 * in.rn[3], 0.0, 0.0;  // slip+: -mu r_n, slip-: +mu r_n
-  EXPECT_EQ(out.rn, rn);
-  EXPECT_EQ(out.rt, rt);
+  EXPECT_EQ(out.modes, ModesOf(states));
+  const Eigen::MatrixXd of_in = ReactionsOf(in);
+  Eigen::MatrixXd reactions(6, 2);
+  reactions << of_in(0, 0), of_in(0, 1), of_in(1, 0), 0.0, of_in(2, 0), -0.3 * of_in(2, 0), of_in(3, 0),
+      0.6 * of_in(3, 0), 0.0, 0.0, 0.0, 0.0;  // slip+: -mu r_n, slip-: +mu r_n
+  EXPECT_EQ(Eigen::MatrixXd(ReactionsOf(out)), reactions);
 }
 
 TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
-  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
-                    reference_);
+  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}), ByPort(reference_));
   const PathPoint point = RandomPoint();
   const Eigen::VectorXd x = system_.Pack(point);
   const auto slip = [&](std::size_t i) {
@@ -252,32 +252,31 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
   };
   struct Expected {
     int contact;
-    Inequality inequality;
+    ContactLimit limit;
     double value;
   };
-  const std::vector<Expected> expected = {{0, Inequality::kNormalReaction, point.rn[0]},
-                                          {0, Inequality::kConePlus, 0.3 * point.rn[0] + point.rt[0]},
-                                          {0, Inequality::kConeMinus, 0.3 * point.rn[0] - point.rt[0]},
-                                          {1, Inequality::kNormalReaction, point.rn[1]},
-                                          {2, Inequality::kNormalReaction, point.rn[2]},
-                                          {2, Inequality::kSlip, slip(2)},
-                                          {3, Inequality::kNormalReaction, point.rn[3]},
-                                          {3, Inequality::kSlip, -slip(3)},
-                                          {4, Inequality::kGap, contacts_[4]->Gap(point.u, point.s, 0)},
-                                          {5, Inequality::kGap, contacts_[5]->Gap(point.u, point.s, 0)}};
-  const std::vector<Constraint> limits = system_.Inequalities();
+  const std::vector<Expected> expected = {{0, ContactLimit::kNormalReaction, NormalReaction(point, 0)},
+                                          {0, ContactLimit::kConePlus, 0.3 * NormalReaction(point, 0) + TangentialReaction(point, 0)},
+                                          {0, ContactLimit::kConeMinus, 0.3 * NormalReaction(point, 0) - TangentialReaction(point, 0)},
+                                          {1, ContactLimit::kNormalReaction, NormalReaction(point, 1)},
+                                          {2, ContactLimit::kNormalReaction, NormalReaction(point, 2)},
+                                          {2, ContactLimit::kSlip, slip(2)},
+                                          {3, ContactLimit::kNormalReaction, NormalReaction(point, 3)},
+                                          {3, ContactLimit::kSlip, -slip(3)},
+                                          {4, ContactLimit::kGap, contacts_[4]->Gap(point.u, point.s, 0)},
+                                          {5, ContactLimit::kGap, contacts_[5]->Gap(point.u, point.s, 0)}};
+  const std::vector<Limit> limits = system_.Limits();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {
-    EXPECT_EQ(limits[k].contact, expected[k].contact) << k;
-    EXPECT_EQ(limits[k].inequality, expected[k].inequality) << k;
+    EXPECT_EQ(limits[k].law, expected[k].contact) << k;
+    EXPECT_EQ(limits[k].id, NumberOf(expected[k].limit)) << k;
     EXPECT_NEAR(system_.Value(limits[k], x), expected[k].value, kRounding) << k;
   }
 }
 
 TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
-  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
-                    reference_);
-  const std::vector<Constraint> limits = system_.Inequalities();
+  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}), ByPort(reference_));
+  const std::vector<Limit> limits = system_.Limits();
   const Eigen::VectorXd x = system_.Pack(RandomPoint());
   system_.SetActive(limits);
   system_.FixLoadFactor(0.25);
@@ -290,10 +289,9 @@ TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
 }
 
 TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
-  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
-                    reference_);
+  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}), ByPort(reference_));
   const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
-  for (const Constraint& limit : system_.Inequalities()) {
+  for (const Limit& limit : system_.Limits()) {
     const auto value = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
     };
@@ -304,7 +302,7 @@ TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
 
 TEST_F(MixedSystem, SecondDerivativeMeetsDifferences) {
   for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus}) {
-    system_.SetStates({state, State::kClosed, State::kStick, state, state, State::kOpen}, reference_);
+    system_.SetModes(ModesOf({state, State::kClosed, State::kStick, state, state, State::kOpen}), ByPort(reference_));
     system_.FixLoadFactor(0.2);
     const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
     const auto rate = [&](const Eigen::VectorXd& h) {
@@ -334,12 +332,11 @@ class SlidingBarSystem : public testing::Test {
     PathPoint point;
     point.u = Eigen::Vector2d(x, 0.0);
     point.s = sliding_bar::LoadFactor(x);
-    point.rn = Eigen::VectorXd::Constant(1, sliding_bar::NormalReaction(x));
-    point.rt = -sign * sliding_bar::kFriction * point.rn;
+    point.forces = sliding_bar::NormalReaction(x) * Eigen::Vector2d(1.0, -sign * sliding_bar::kFriction);
     return point;
   }
   double LargestResidual(State state, double x, double reference) {
-    system_.SetStates({state}, Eigen::VectorXd::Constant(1, reference));
+    system_.SetModes(ModesOf({state}), Eigen::Vector2d(0.0, reference));
     Eigen::VectorXd residual;
     system_.Residual(system_.Pack(ClosedForm(x, 1.0)), &residual);
     return residual.lpNorm<Eigen::Infinity>();
@@ -348,7 +345,8 @@ class SlidingBarSystem : public testing::Test {
   const Scene scene_ = sliding_bar::MakeScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = BuildContacts(scene_, structure_);
-  FixedStateSystem system_{structure_, contacts_};
+  const Laws laws_ = LawsOf(contacts_);
+  FixedModeSystem system_{structure_, laws_};
 };
 
 TEST_F(SlidingBarSystem, ClosedFormSolvesSlipTowardsPlus) {
@@ -388,7 +386,8 @@ Scene WithLattice(Scene scene, int side) {
 void ExpectSolvedInFrame(const Scene& scene) {
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
-  FixedStateSystem system(structure, contacts);
+  const Laws laws = LawsOf(contacts);
+  FixedModeSystem system(structure, laws);
   Random random(8);
   BorderedSolver framed;
   int other_signs = 0, before = 0;
@@ -408,14 +407,13 @@ void ExpectSolvedInFrame(const Scene& scene) {
     if (states[3] == State::kStick) states[3] = State::kSlipPlus;
     states.resize(contacts.size(), State::kOpen);
     const auto all = static_cast<Eigen::Index>(contacts.size());
-    system.SetStates(states, Eigen::VectorXd::Zero(all));
+    system.SetModes(ModesOf(states));
     PathPoint point;
     point.u = structure.Start() + random.Vector(structure.NumDofs(), -0.01, 0.01);
     point.s = 0.3;
-    point.rn = Eigen::VectorXd::Zero(all);
-    point.rn.head(6) = random.Vector(6, 0.1, 1.0);
-    point.rt = Eigen::VectorXd::Zero(all);
-    point.rt.head(6) = random.Vector(6, -1.0, 1.0);
+    point.forces = Eigen::VectorXd::Zero(2 * all);
+    const Eigen::VectorXd rn = random.Vector(6, 0.1, 1.0);
+    point.forces.head(12) = ByPort(rn, random.Vector(6, -1.0, 1.0));
     const Eigen::VectorXd x = system.Pack(point);
     const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
     // A tangent, and a row with one entry where the border has none.
@@ -444,14 +442,15 @@ void ExpectSolvedInFrame(const Scene& scene) {
 
 // A support that moves by (0.3, 0.4): of the force on it the share along that direction counts. In a frame along the
 // motion it is the only unknown.
-TEST(FixedStateSystem, NormDoesNotDependOnTheAxesOfASupport) {
+TEST(FixedModeSystem, NormDoesNotDependOnTheAxesOfASupport) {
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.5, false, false}};
   scene.bars = {{{"a", "b"}, 1.0}};
   const auto norm = [&](const SupportMotion& motion, const Eigen::VectorXd& change) {
     scene.support_motions = {motion};
     const Structure structure(scene);
-    const FixedStateSystem system(structure, {});
+    const Laws none;
+    const FixedModeSystem system(structure, none);
     EXPECT_EQ(system.NumUnknowns(), change.size());
     return system.Norm(change);
   };
@@ -462,10 +461,10 @@ TEST(FixedStateSystem, NormDoesNotDependOnTheAxesOfASupport) {
   EXPECT_NEAR(norm({"a", 0.3, 0.4}, oblique), along.norm(), kRounding * oblique.norm());
 }
 
-TEST(FixedStateSystem, LargeSystemsInTheirFrame) { ExpectSolvedInFrame(WithLattice(MovingScene(), 40)); }
+TEST(FixedModeSystem, LargeSystemsInTheirFrame) { ExpectSolvedInFrame(WithLattice(MovingScene(), 40)); }
 
 // More candidates than fit a frame: it has places for those that touch.
-TEST(FixedStateSystem, LargeSystemsInTheirFrameWithManyCandidates) {
+TEST(FixedModeSystem, LargeSystemsInTheirFrameWithManyCandidates) {
   Scene scene = WithLattice(MovingScene(), 40);
   scene.obstacles.push_back({"far", ObstacleShape::kHalfPlane, 0.0, -100.0, 0.0, 1.0, 0.3});
   for (const Node& node : scene.nodes)
@@ -474,4 +473,4 @@ TEST(FixedStateSystem, LargeSystemsInTheirFrameWithManyCandidates) {
 }
 
 }  // namespace
-}  // namespace contact_path::fixed_state_system_test
+}  // namespace contact_path::fixed_mode_system_test

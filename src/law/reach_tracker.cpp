@@ -1,4 +1,4 @@
-#include "contact_path/contact/reach_tracker.h"
+#include "contact_path/law/reach_tracker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace contact_path {
 
-ReachTracker::ReachTracker(const ContactPairs& contacts) : contacts_(contacts) {}
+ReachTracker::ReachTracker(const Laws& laws) : laws_(laws) {}
 
 std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::VectorXd>& u, double s, double reach) {
   if (!sound_ || u_.size() != u.size()) LookAtAll();
@@ -24,10 +24,10 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
   while (end != looks_.begin() && !(looks_.front().first > moved_ + reach + slack)) {
     std::pop_heap(looks_.begin(), end, later);
     Look& look = *--end;
-    const ContactPair& pair = *contacts_[look.second];
-    const double gap = pair.Nearest(u_, s_).distance, rate = pair.LargestGapRate();
-    if (gap <= reach * rate) in_reach.push_back(look.second);
-    const double distance = (1.0 - tolerances::kTouching) * gap / rate;
+    const Law& law = laws_[look.second];
+    const double away = law.Reach(u_, s_), rate = law.LargestReachRate();
+    if (away <= reach * rate) in_reach.push_back(look.second);
+    const double distance = (1.0 - tolerances::kTouching) * away / rate;
     look.first = std::isfinite(distance) ? moved_ + distance : moved_;
   }
   while (end != looks_.end()) std::push_heap(looks_.begin(), ++end, later);
@@ -38,7 +38,7 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
 
 void ReachTracker::LookAtAll() {
   looks_.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) looks_.emplace_back(moved_, i);  // a heap: all are equal
+  for (std::size_t i = 0; i < laws_.size(); ++i) looks_.emplace_back(moved_, i);  // a heap: all are equal
 }
 
 }  // namespace contact_path

@@ -1,0 +1,194 @@
+// What has modes: a contact, say. The solvers know laws by their ports, the tables of their states, and their limits.
+#ifndef CONTACT_PATH_LAW_LAW_H_
+#define CONTACT_PATH_LAW_LAW_H_
+
+#include <Eigen/Core>
+#include <bitset>
+#include <cstddef>
+#include <vector>
+
+#include "contact_path/law/active_set_tolerance.h"
+#include "contact_path/law/mode.h"
+#include "contact_path/law/ports.h"
+
+namespace contact_path {
+
+// What a port does in a state.
+struct PortRule {
+  enum class Kind {
+    kFree,     // no force
+    kHeld,     // motion - reference + compliance * force = 0, the force is an unknown
+    kFollows,  // force = ratio * force of port 0
+  };
+  Kind kind = Kind::kFree;
+  double ratio = 0.0;
+  double compliance = 0.0;
+
+  bool Holds() const { return kind == Kind::kHeld; }
+  bool Follows() const { return kind == Kind::kFollows; }
+};
+
+// A limit of a state: what must stay >= 0, and the state beyond.
+struct LimitRule {
+  enum class Of {
+    kMotion,      // sign * (motion - reference), plus compliance times the force where the port is held
+    kMotionRate,  // the rate of that, of a motion whose reference moves along
+    kPiece,       // sign * (motion - Law::BoundOf()), the motion not from its reference: beyond is another piece
+    kForces,      // sum of weight * force over the ports
+  };
+  int id = 0;
+  Of of = Of::kMotion;
+  std::size_t port = 0;
+  double sign = 1.0;
+  PortReals weights{};
+  double unit = 1.0;  // what tolerances of values and rates are multiplied with
+  int next = 0;       // state
+
+  bool OfForces() const { return of == Of::kForces; }
+  bool OfRate() const { return of == Of::kMotionRate; }
+  bool OfPiece() const { return of == Of::kPiece; }
+};
+
+struct StateRule {
+  std::array<PortRule, kMostPorts> ports{};
+  std::vector<LimitRule> limits;
+  int held = 0;           // the state in which what slides here is held
+  bool symmetric = true;  // whether forces and equations have the same gradients, and no port follows
+  bool idle = true;       // no port has a force
+  bool slides = false;    // a port follows
+
+  const LimitRule* Find(int id) const {
+    for (const LimitRule& limit : limits)
+      if (limit.id == id) return &limit;
+    return nullptr;
+  }
+};
+
+// A force that a law can have at rest: sums of such forces with weights >= 0 are all of them. weight of a force:
+// share . force.
+struct Ray {
+  PortReals force{}, share{};
+};
+
+// A law does not change: mode, forces and memory are of the point of the path. Its memory is a reference for each port,
+// the motion from which the port's motion is measured. q stands for (dofs, s) throughout: m + 1 entries with m =
+// Dofs(piece).size() <= kMostLawDofs, the load factor last. u may have more entries than dofs.
+class Law {
+ public:
+  virtual ~Law() = default;
+
+  std::size_t NumPorts() const { return traits_.num_ports; }
+  const StateRule& In(int state) const { return states_[static_cast<std::size_t>(state)]; }
+  const StateRule& In(const Mode& mode) const { return In(mode.state); }
+  int NumStates() const { return static_cast<int>(states_.size()); }
+  // A state in which all ports are held.
+  int AllHeld() const;
+  // Of a limit that the state has.
+  const LimitRule& Rule(int state, int id) const { return *In(state).Find(id); }
+
+  // Of a known piece.
+  virtual LawDofs Dofs(int /*piece*/) const { return traits_.dofs; }
+  // Whether dofs are those of the piece.
+  bool DofsByPiece() const { return traits_.dofs_by_piece; }
+  // Whether what it holds gives way: its forces are not redundant beside those of another law.
+  bool Compliant() const { return traits_.compliant; }
+  // Whether Hessians can be other than zero.
+  bool Curved() const { return traits_.curved; }
+  // Whether its forces follow the motion since the start of the program, and not since the last increment. Verdicts of
+  // stability do not cover it.
+  bool Holonomic() const { return traits_.holonomic; }
+  // Whether the gradient of a port can be other than zero in the entry k of q: its sparsity.
+  bool Moves(std::size_t port, std::size_t k) const { return traits_.moves[port][k]; }
+  // An upper bound of |d Reach()| over |(du, ds)|; infinite where there is none.
+  double LargestReachRate() const { return traits_.largest_reach_rate; }
+  // A power of 2 up to 1, of the order of its forces where the parts that it is of are far softer than the structure as
+  // a whole: forces are compared with tolerances times this force.
+  double ForceUnit() const { return traits_.force_unit; }
+  // Largest ratio of a port that follows, in any state.
+  double LargestRatio() const { return traits_.largest_ratio; }
+
+  // The ports at a place. piece: prolonged beyond its ends.
+  virtual void Evaluate(const Eigen::VectorXd& u, double s, int piece, const PortReals& reference,
+                        PortsAt* ports) const = 0;
+  // The motion of one port. Where there is no such piece: something that has the sign of its limits.
+  virtual double Motion(std::size_t port, const Eigen::VectorXd& u, double s, int piece,
+                        const PortReals& reference) const;
+  // *hessian = second derivatives by q of weights . (sum of force * factor * gradient over the ports), forces do not
+  // change: m + 1 square, symmetric. Asked of curved laws only, as SecondDirectional().
+  virtual void ForceHessian(const Eigen::VectorXd& u, double s, int piece, const PortReals& forces,
+                            const LawVector& weights, LawMatrix* hessian) const;
+  // d2/dh2 of the force along q + h direction at h = 0, by q; forces of the ports do not change. Where factors are 1
+  // throughout, the force is a gradient, and this is ForceHessian() with the direction for weights, times the
+  // direction.
+  virtual LawVector SecondDirectional(const Eigen::VectorXd& u, double s, int piece, const PortReals& forces,
+                                      const LawVector& direction) const;
+  // The factor of a port and its first two derivatives by h along q + h first + h^2 / 2 second.
+  virtual Eigen::Vector3d FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int piece,
+                                      const LawVector& first, const LawVector& second) const;
+  // What a force of the port works along, from (u, s) on `piece` to (u + du, s + ds) on `piece_after`, and its rate.
+  virtual double Travel(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du,
+                        double ds, int piece_after) const;
+  double TravelRate(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du,
+                    double ds) const;
+
+  // References at a place from which an arc sets out.
+  virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;
+  // How far an idle law is from its limit, for the search of what an increment may reach.
+  virtual double Reach(const Eigen::VectorXd& u, double s) const = 0;
+
+  // The modes that may follow at a point: one mode where nothing is at a limit. The mode of now comes first, if it is
+  // among them.
+  virtual Modes ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
+                        const ActiveSetTolerance& tolerance) const = 0;
+  // The limits of a mode, and those of other pieces that are near an idle law: an increment is wanted there, and
+  // nothing fails.
+  virtual void AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const;
+  virtual void AddNear(const Mode& /*mode*/, int /*law*/, std::vector<Limit>* /*limits*/) const {}
+  // Where a piece ends, of a limit of the kind kPiece.
+  virtual double BoundOf(const Mode& /*mode*/, int /*id*/) const { return 0.0; }
+  // The mode beyond a limit; the piece of one that becomes idle or ceases to be so is for NextAt() to find. A piece may
+  // be none: Exists().
+  virtual Mode Next(const Mode& mode, int id) const { return {Rule(mode.state, id).next, mode.piece}; }
+  virtual Mode NextAt(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& mode, int id) const {
+    return Next(mode, id);
+  }
+  virtual bool Exists(const Mode& /*mode*/) const { return true; }
+  // The mode in which a program starts at a place, without forces, and the mode in a state there.
+  virtual Mode Initial(const Eigen::VectorXd& u, double s) const = 0;
+  virtual Mode InState(const Eigen::VectorXd& /*u*/, double /*s*/, int state) const { return {state, 0}; }
+  // The mode at the start of a step that comes along in `mode`: pieces may follow each other without an event.
+  virtual Mode AtStart(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& mode) const { return mode; }
+  // With a piece that is one: points need not know those of idle laws.
+  virtual Mode Known(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& mode) const { return mode; }
+  virtual Mode OfPoint(const Mode& mode) const { return mode; }
+  // Whether an idle law is behind its limit, on another piece than that of its mode.
+  virtual bool Passed(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& /*mode*/) const { return false; }
+  // Whether curvatures change from one piece to the other.
+  virtual bool ChangesPiece(int /*from*/, int /*to*/) const { return false; }
+  // All forces at rest.
+  virtual std::vector<Ray> Rays(const Eigen::VectorXd& u, double s, int piece,
+                                const ActiveSetTolerance& tolerance) const = 0;
+
+ protected:
+  using Terms = std::bitset<kMostLawDofs + 1>;
+  struct Traits {
+    std::size_t num_ports = 1;
+    LawDofs dofs;  // of all pieces, unless by piece
+    bool dofs_by_piece = false, compliant = false, curved = false, holonomic = false;
+    std::array<Terms, kMostPorts> moves{};
+    double force_unit = 1.0;
+    double largest_ratio = 0.0;
+    double largest_reach_rate = 1.0;
+  };
+  const LawDofs& OwnDofs() const { return traits_.dofs; }
+  // What does not change; set once, by the constructor. `idle` and `slides` follow from the ports.
+  void SetLaw(const Traits& traits, std::vector<StateRule> states);
+
+ private:
+  Traits traits_;
+  std::vector<StateRule> states_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_LAW_LAW_H_

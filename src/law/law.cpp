@@ -1,0 +1,69 @@
+#include "contact_path/law/law.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace contact_path {
+
+double Law::Motion(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const PortReals& reference) const {
+  PortsAt at;
+  Evaluate(u, s, piece, reference, &at);
+  return at[port].motion;
+}
+
+void Law::ForceHessian(const Eigen::VectorXd& /*u*/, double /*s*/, int piece, const PortReals& /*forces*/,
+                       const LawVector& /*weights*/, LawMatrix* hessian) const {
+  const auto size = static_cast<Eigen::Index>(Dofs(piece).size()) + 1;
+  *hessian = LawMatrix::Zero(size, size);
+}
+
+LawVector Law::SecondDirectional(const Eigen::VectorXd& u, double s, int piece, const PortReals& forces,
+                                 const LawVector& direction) const {
+  LawMatrix derivative;
+  ForceHessian(u, s, piece, forces, direction, &derivative);
+  return derivative * direction;
+}
+
+Eigen::Vector3d Law::FactorAlong(std::size_t /*port*/, const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/,
+                                 const LawVector& /*first*/, const LawVector& /*second*/) const {
+  return Eigen::Vector3d::UnitX();
+}
+
+double Law::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du, double ds,
+                   int piece_after) const {
+  if (!Curved()) return TravelRate(port, u, s, piece, du, ds);
+  PortReals reference{};
+  reference[port] = Motion(port, u, s, piece, {});
+  return Motion(port, u + du, s + ds, piece_after, reference);
+}
+
+double Law::TravelRate(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du,
+                       double ds) const {
+  PortsAt at;
+  Evaluate(u, s, piece, {}, &at);
+  return at[port].factor * at.Rate(at[port].gradient, du, ds);
+}
+
+int Law::AllHeld() const {
+  const auto all = [this](const StateRule& state) {
+    return std::all_of(state.ports.begin(), state.ports.begin() + static_cast<std::ptrdiff_t>(NumPorts()),
+                       [](const PortRule& port) { return port.Holds(); });
+  };
+  return static_cast<int>(std::find_if(states_.begin(), states_.end(), all) - states_.begin());
+}
+
+void Law::AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const {
+  for (const LimitRule& rule : In(mode).limits) limits->push_back({law, rule.id});
+}
+
+void Law::SetLaw(const Traits& traits, std::vector<StateRule> states) {
+  traits_ = traits;
+  states_ = std::move(states);
+  for (StateRule& state : states_)
+    for (const PortRule& port : state.ports) {
+      state.idle = state.idle && port.kind == PortRule::Kind::kFree;
+      state.slides = state.slides || port.Follows();
+    }
+}
+
+}  // namespace contact_path
