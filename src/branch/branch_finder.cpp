@@ -107,9 +107,9 @@ std::optional<States> BranchFinder::PivotFrom(States states, double load_sense,
   for (int pivot = 0; pivot < kMostPivots && !Cancelled(); ++pivot) {
     std::optional<std::vector<Limit>> broken = BrokenOf(states, load_sense, condensed);
     if (!broken) return std::nullopt;
-    const auto rule_of = [&](const Limit& limit) -> const LimitRule& {
+    const auto rule_of = [&, now = states](const Limit& limit) -> const LimitRule& {
       const auto i = static_cast<std::size_t>(limit.law);
-      return laws_[i].Rule(states[i], limit.id);
+      return laws_[i].Rule(now[i], limit.id);
     };
     // At the end of a piece another piece is wanted, and no other state.
     broken->erase(std::remove_if(broken->begin(), broken->end(),

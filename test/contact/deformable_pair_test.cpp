@@ -108,7 +108,7 @@ TEST_F(DeformablePairs, ChangesOfTheForceMeetDifferences) {
   for (const Case& of : cases_) {
     const PortsAt at = At(of, of.contact.u);
     const auto force = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(Force(At(of, Moved(of, q)))); };
-    const Eigen::MatrixXd change = at.ForceChange(kRn, kRt).transpose();
+    const Eigen::MatrixXd change = at.ForceChange({kRn, kRt}).transpose();
     EXPECT_TRUE(IsJacobian(force, Start(of), change, kDerivativeTolerance, 1e-3)) << of.name;
   }
 }
@@ -119,12 +119,12 @@ TEST_F(DeformablePairs, SecondDerivativesOfTheForceMeetDifferences) {
     const LawVector direction = random_.Vector(Start(of).size(), -1.0, 1.0);
     const auto along = [&](const Eigen::VectorXd& h) {
       const PortsAt at = At(of, Moved(of, Start(of) + h[0] * direction));
-      return Eigen::VectorXd(at.ForceChange(kRn, kRt).transpose() * direction);
+      return Eigen::VectorXd(at.ForceChange({kRn, kRt}).transpose() * direction);
     };
     const LawVector second = pair.SecondDirectional(of.contact.u, 0.0, of.patch, {kRn, kRt}, direction);
     EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), second, kDerivativeTolerance, 1e-3)) << of.name;
     const auto weighted = [&](const Eigen::VectorXd& q) {
-      return Eigen::VectorXd(At(of, Moved(of, q)).ForceChange(kRn, kRt) * direction);
+      return Eigen::VectorXd(At(of, Moved(of, q)).ForceChange({kRn, kRt}) * direction);
     };
     LawMatrix hessian;
     pair.ForceHessian(of.contact.u, 0.0, of.patch, {kRn, kRt}, direction, &hessian);

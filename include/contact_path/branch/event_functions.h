@@ -12,8 +12,8 @@ namespace contact_path {
 // In the order in which facts at one place are acted on, the last one first.
 enum class EventKind {
   kNone,         // the whole step is good
-  kNearTouch,    // a limit comes so near to zero inside that only an increment there can tell; or an open contact comes
-                 // to the next patch of its surface
+  kNearTouch,    // a limit comes so near to zero inside that only an increment there can tell; or an idle law comes
+                 // to the next piece of its curves
   kBifurcation,  // other curves cross
   kLimitPoint,   // ds = 0
   kContactEvent,  // a limit reaches zero and would be broken

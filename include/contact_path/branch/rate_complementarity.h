@@ -23,7 +23,7 @@ struct RateSolution {
 // A contact at an edge of its cone, sliding or about to with sense sigma:
 //     v_n = 0; w = mu r_n + sigma r_t, z = sigma v_t
 // a contact that touches without a reaction: w = r_n, z = v_n, and v_t = z+ - z- with two pairs, mu r_n +- r_t and z+-
-// (Klarbring 1990; primes of the rates are left out); without friction r_t = 0. Stiffnesses or compliances that connect
+// (Klarbring 1990; primes of the rates are left out); r_t = 0 where mu is. Stiffnesses or compliances that connect
 // motions and forces come from the condensed rate problem. As a rule the motions are given and the forces follow; where
 // motions depend on each other, as of a node between two walls, some forces are given.
 class RateComplementarity {

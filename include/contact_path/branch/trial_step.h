@@ -17,7 +17,7 @@ struct TrialStep {
   std::vector<std::pair<std::string_view, double>> numbers;
 };
 
-// A verdict: the work of the loads is not what the strain energy gains and friction takes.
+// A verdict: the work of the loads is not what the strain energy gains and what slides takes.
 inline constexpr std::string_view kEnergiesOff = "the energies do not balance";
 
 // Called with each trial; empty: nobody asks, and no trial is described.
