@@ -18,8 +18,7 @@ bool SlidesOn(const FixedModeSystem& system, const Eigen::VectorXd& x, const Eig
 
 }  // namespace
 
-std::vector<Branch> BifurcationBranches(const ModeArc& arc, const Crossing& crossing,
-                                        const PathParameter& parameter) {
+std::vector<Branch> BifurcationBranches(const ModeArc& arc, const Crossing& crossing, const PathParameter& parameter) {
   const FixedModeSystem& system = arc.system();
   const Eigen::Index motion = arc.NumMotion();
   const PathPoint point = system.Unpack(crossing.x);

@@ -48,8 +48,8 @@ Modes ModesWith(const States& states, const std::vector<Modes>& options, const P
   return modes;
 }
 
-BranchFinder::BranchFinder(const Structure& structure, const Laws& laws, const PathPoint& point,
-                           const Options& options, const Arrival& arrival, const ActiveSetTolerance& tolerance,
+BranchFinder::BranchFinder(const Structure& structure, const Laws& laws, const PathPoint& point, const Options& options,
+                           const Arrival& arrival, const ActiveSetTolerance& tolerance,
                            const std::function<bool()>& cancelled)
     : laws_(laws),
       point_(point),
@@ -100,8 +100,7 @@ bool BranchFinder::TrySolution(const States& states, bool degenerate, double loa
   return others && *others != states && TryStates(*others, branches, load_sense);
 }
 
-std::optional<States> BranchFinder::PivotFrom(States states, double load_sense,
-                                                            const RateProblem* condensed) {
+std::optional<States> BranchFinder::PivotFrom(States states, double load_sense, const RateProblem* condensed) {
   std::set<States> seen;
   bool together = true;
   for (int pivot = 0; pivot < kMostPivots && !Cancelled(); ++pivot) {
@@ -112,9 +111,9 @@ std::optional<States> BranchFinder::PivotFrom(States states, double load_sense,
       return laws_[i].Rule(now[i], limit.id);
     };
     // At the end of a piece another piece is wanted, and no other state.
-    broken->erase(std::remove_if(broken->begin(), broken->end(),
-                                 [&](const Limit& limit) { return rule_of(limit).OfPiece(); }),
-                  broken->end());
+    broken->erase(
+        std::remove_if(broken->begin(), broken->end(), [&](const Limit& limit) { return rule_of(limit).OfPiece(); }),
+        broken->end());
     if (broken->empty()) return states;
     together = together && seen.insert(states).second;
     if (!together) broken->resize(1);
@@ -195,7 +194,7 @@ Modes BranchFinder::OntoPieces(const States& states, double sign) {
 }
 
 std::optional<std::vector<Limit>> BranchFinder::BrokenOf(const States& states, double load_sense,
-                                                              const RateProblem* condensed) {
+                                                         const RateProblem* condensed) {
   if (condensed != nullptr) {
     const std::optional<CondensedRates> rates = condensed->Rates(states);
     if (!rates) return std::nullopt;
@@ -222,7 +221,7 @@ bool BranchFinder::Admissible(const Tangents& tangents, std::size_t k, const Eig
 }
 
 std::vector<Limit> BranchFinder::Broken(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
-                                             const Eigen::VectorXd& second, std::size_t most) {
+                                        const Eigen::VectorXd& second, std::size_t most) {
   std::vector<Limit> broken, level;
   for (const Limit& limit : system_.Limits()) {
     if (broken.size() == most) return broken;

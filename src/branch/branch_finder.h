@@ -76,10 +76,9 @@ class BranchFinder {
   bool Admissible(const Tangents& tangents, std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& first);
   // In the order of the laws, at most so many, the limits with a negative leading sign along a curve.
   std::vector<Limit> Broken(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
-                                 std::size_t most);
+                            std::size_t most);
   // The same by the first tangent of these states, or by condensed rates.
-  std::optional<std::vector<Limit>> BrokenOf(const States& states, double load_sense,
-                                                  const RateProblem* condensed);
+  std::optional<std::vector<Limit>> BrokenOf(const States& states, double load_sense, const RateProblem* condensed);
   // Whether the load starts to change in the wanted sense, by more than `error`: a motion without load is a mechanism.
   // At a smooth limit point the load rests, and its curvature tells; where that is zero as well, as of a load across
   // straight bars, the rate a little farther along does.
@@ -93,8 +92,8 @@ class BranchFinder {
   std::optional<Ahead> LookAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second);
 
   bool IsReversed(const Eigen::VectorXd& first) const;
-  // How many ports slide by name in these modes and move, or do not; of moving ones, on curves and in laws that were held
-  // at the point: over a sharp curve the load changes far more than a node moves. motion: (du, ds).
+  // How many ports slide by name in these modes and move, or do not; of moving ones, on curves and in laws that were
+  // held at the point: over a sharp curve the load changes far more than a node moves. motion: (du, ds).
   int Sliding(const Modes& modes, const Eigen::VectorXd& motion, bool moving) const;
   // Of two branches with one direction of motion: whether the first is to be kept. Walls that hold a node have several
   // states that do; those with the least forces are kept, whatever the order of the laws, and whichever way the

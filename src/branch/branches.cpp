@@ -9,19 +9,19 @@
 
 #include "branch/branch_finder.h"
 #include "contact_path/branch/branch_order.h"
+#include "contact_path/branch/force_redistribution.h"
 #include "contact_path/branch/rate_complementarity.h"
 #include "contact_path/branch/rate_problem.h"
-#include "contact_path/branch/force_redistribution.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem of a small structure for
-constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
+constexpr double kFewCombinations = 8.0;         // not worth condensing the rate problem of a small structure for
+constexpr double kMostCondensed = 5e7;           // numbers that may be held for that
 constexpr std::size_t kMostCondensedLaws = 512;  // of more, dense equations take longer than the sparse ones of all
-constexpr double kMostCombinations = 4096.0;         // 4^6
-constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
+constexpr double kMostCombinations = 4096.0;     // 4^6
+constexpr double kMostIfNone = 65536.0;          // 4^8: tried before the path is said to end
 
 using Options = BranchFinder::Options;
 
@@ -68,7 +68,8 @@ bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, Br
 
 // Where there are too many combinations: principal pivoting from the states of now, from as many idle laws as may be,
 // and from as many laws as may be in each of the states. Each result is tried like any other combination.
-void TryLikely(const Laws& laws, const Options& options, const RateProblem* condensed, BranchFinder* finder, BranchSet* result) {
+void TryLikely(const Laws& laws, const Options& options, const RateProblem* condensed, BranchFinder* finder,
+               BranchSet* result) {
   std::set<States> tried;
   const auto pivot_from = [&](const auto& is_preferred) {
     States guess;
@@ -94,8 +95,8 @@ void TryLikely(const Laws& laws, const Options& options, const RateProblem* cond
 
 // With the forces of the point. In no order, and mirror branches are not told.
 BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const PathPoint& point,
-                                const Arrival& arrival, const ActiveSetTolerance& tolerance,
-                                const std::function<bool()>& cancelled) {
+                             const Arrival& arrival, const ActiveSetTolerance& tolerance,
+                             const std::function<bool()>& cancelled) {
   BranchSet result;
   Options options;
   Modes natural;
@@ -118,8 +119,8 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   BranchFinder finder(structure, laws, point, options, arrival, tolerance, cancelled);
   if (finder.AllRedundant()) return result;
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
-  // pieces of a rigid law meet, whose curvatures differ. Compliant laws pass from piece to piece all the time: then there
-  // is a problem for each combination of pieces.
+  // pieces of a rigid law meet, whose curvatures differ. Compliant laws pass from piece to piece all the time: then
+  // there is a problem for each combination of pieces.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
@@ -184,8 +185,7 @@ void AddOthers(const Laws& laws, BranchSet&& others, const PathPoint& begin, Bra
     });
     if (known == result->branches.end())
       result->branches.push_back(std::move(branch));
-    else if (known->begin &&
-             ForceNorm(laws, begin) < (1.0 - tolerances::kRate) * ForceNorm(laws, *known->begin))
+    else if (known->begin && ForceNorm(laws, begin) < (1.0 - tolerances::kRate) * ForceNorm(laws, *known->begin))
       *known = std::move(branch);
   }
   result->weakly_active = std::max(result->weakly_active, others.weakly_active);
@@ -213,16 +213,15 @@ double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& po
     if (!state.slides || laws[i].Holonomic()) continue;
     for (std::size_t p = 0; p < laws[i].NumPorts(); ++p)
       if (state.ports[p].Follows())
-        rate -= point.forces[laws.FirstPort(i) + static_cast<Eigen::Index>(p)] *
-                laws[i].TravelRate(p, point.u, point.s, point.modes[i].piece, direction,
-                                   direction[direction.size() - 1]);
+        rate -=
+            point.forces[laws.FirstPort(i) + static_cast<Eigen::Index>(p)] *
+            laws[i].TravelRate(p, point.u, point.s, point.modes[i].piece, direction, direction[direction.size() - 1]);
   }
   return std::max(rate, 0.0);  // rounding may leave less
 }
 
-BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& tolerance,
-                       const std::function<bool()>& cancelled) {
+BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point, const Arrival& arrival,
+                       const ActiveSetTolerance& tolerance, const std::function<bool()>& cancelled) {
   BranchSet result = BranchesWithForces(structure, laws, point, arrival, tolerance, cancelled);
   const auto none = [&](const auto& test) {
     return std::none_of(result.branches.begin(), result.branches.end(), test);
@@ -233,8 +232,7 @@ BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathP
     if (!others.complete) result.complete_by = Completeness::kNone;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(laws, BranchesWithForces(structure, laws, begin, arrival, tolerance, cancelled), begin,
-                &result);
+      AddOthers(laws, BranchesWithForces(structure, laws, begin, arrival, tolerance, cancelled), begin, &result);
     }
   }
   SortBranches(point.modes, arrival.forward, &result.branches);

@@ -88,8 +88,7 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
   motions.col(0) = solver.Solve(Eigen::VectorXd::Zero(system.NumEquations()), 1.0).head(nd);
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
     const PortsAt& at = ports[k];
-    const auto count =
-        static_cast<Eigen::Index>(laws[static_cast<std::size_t>(weakly_active_[k])].NumPorts());
+    const auto count = static_cast<Eigen::Index>(laws[static_cast<std::size_t>(weakly_active_[k])].NumPorts());
     Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system.NumEquations(), count), moved;
     for (Eigen::Index p = 0; p < count; ++p)
       for (std::size_t a = 0; a < at.dofs.size(); ++a)

@@ -42,8 +42,7 @@ RedundantLaws::RedundantLaws(const Laws& laws, const PathPoint& point, double ga
 }
 
 bool RedundantLaws::Among(const States& states) const {
-  return std::any_of(by_dofs_.begin(), by_dofs_.end(),
-                     [&](const auto& of) { return AmongThese(of.second, states); });
+  return std::any_of(by_dofs_.begin(), by_dofs_.end(), [&](const auto& of) { return AmongThese(of.second, states); });
 }
 
 std::vector<std::vector<std::size_t>> RedundantLaws::OfTheSameDofs() const {

@@ -41,8 +41,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   // NormalForceUnit() is of these traits.
   SetLaw(traits, {});
   const double unit = ForceUnit();
-  const LimitRule bears =
-      OfForces(ContactLimit::kNormalReaction, {1.0, 0.0}, NormalForceUnit(), ContactState::kOpen);
+  const LimitRule bears = OfForces(ContactLimit::kNormalReaction, {1.0, 0.0}, NormalForceUnit(), ContactState::kOpen);
   const auto with_ends = [&](ContactState state, std::vector<LimitRule> limits) {
     if (HasPatches() && !Seamless())
       for (const bool begin : {true, false})
@@ -63,12 +62,10 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
     const ContactState state = plus ? ContactState::kSlipPlus : ContactState::kSlipMinus;
     StateRule& slip = rule_of(state);
     slip.ports = {kHeld, PortRule{PortRule::Kind::kFollows, plus ? -mu : mu, 0.0}};
-    const LimitRule slides =
-        traits.holonomic
-            ? OfMotion(ContactLimit::kTotalSlip, LimitRule::Of::kMotion, kTangent, plus ? 1.0 : -1.0,
-                       ContactState::kStick)
-            : OfMotion(ContactLimit::kSlip, LimitRule::Of::kMotionRate, kTangent, plus ? 1.0 : -1.0,
-                       ContactState::kStick);
+    const LimitRule slides = traits.holonomic ? OfMotion(ContactLimit::kTotalSlip, LimitRule::Of::kMotion, kTangent,
+                                                         plus ? 1.0 : -1.0, ContactState::kStick)
+                                              : OfMotion(ContactLimit::kSlip, LimitRule::Of::kMotionRate, kTangent,
+                                                         plus ? 1.0 : -1.0, ContactState::kStick);
     slip.limits = with_ends(state, {bears, slides});
     slip.held = NumberOf(ContactState::kStick);
     slip.symmetric = false;
@@ -78,9 +75,8 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   closed.limits = with_ends(ContactState::kClosed, {bears});
   closed.held = NumberOf(ContactState::kClosed);
   StateRule& open = rule_of(ContactState::kOpen);
-  open.limits = with_ends(
-      ContactState::kOpen, {OfMotion(ContactLimit::kGap, LimitRule::Of::kMotion, kNormal, 1.0,
-                                     frictional ? ContactState::kStick : ContactState::kClosed)});
+  open.limits = with_ends(ContactState::kOpen, {OfMotion(ContactLimit::kGap, LimitRule::Of::kMotion, kNormal, 1.0,
+                                                         frictional ? ContactState::kStick : ContactState::kClosed)});
   open.held = NumberOf(ContactState::kOpen);
   SetLaw(traits, std::move(states));
 }
@@ -195,8 +191,7 @@ Modes ContactPair::ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, 
     if (xi >= range.end - tolerance.motion) ++after;
   }
   Modes modes;
-  for (const ContactState state :
-       StatesAt(u, s, patch, StateOf(now), forces[kNormal], forces[kTangent], tolerance)) {
+  for (const ContactState state : StatesAt(u, s, patch, StateOf(now), forces[kNormal], forces[kTangent], tolerance)) {
     std::vector<int> patches = {patch};
     const bool either_way = state == ContactState::kClosed || (Holonomic() && Slips(state));
     if (either_way) {

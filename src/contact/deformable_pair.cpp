@@ -166,8 +166,7 @@ void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, con
   gap.gradient = columns.Gather(gap_gradient);
   xi.gradient = length * columns.Gather(knot_gradient);
   gap.hessian = columns.GatherRows([&](std::size_t k) { return at.gap_gradient[k].derivatives(); });
-  xi.hessian =
-      length * columns.GatherRows([&](std::size_t k) { return at.knot_gradient[k].derivatives(); });
+  xi.hessian = length * columns.GatherRows([&](std::size_t k) { return at.knot_gradient[k].derivatives(); });
   xi.factor = at.slip.value() / length;
   xi.factor_gradient = columns.Gather(at.slip.derivatives()) / length;
 }
@@ -232,8 +231,9 @@ void DeformablePair::ForceHessian(const Eigen::VectorXd& u, double s, int patch,
     along_knot = TwiceByPlaces(along_knot + weight * at.knot_gradient[k]);
   }
   // c grad xi is the slip per knot times the gradient of the knot.
-  const TwiceByPlaces force = TwiceByPlaces(Constant<TwiceByPlaces>(forces[kNormal]) * along_gap) +
-                              TwiceByPlaces(Constant<TwiceByPlaces>(forces[kTangent]) * TwiceByPlaces(at.slip * along_knot));
+  const TwiceByPlaces force =
+      TwiceByPlaces(Constant<TwiceByPlaces>(forces[kNormal]) * along_gap) +
+      TwiceByPlaces(Constant<TwiceByPlaces>(forces[kTangent]) * TwiceByPlaces(at.slip * along_knot));
   *hessian = columns.GatherRows(
       [&](std::size_t k) { return force.derivatives()[static_cast<Eigen::Index>(k)].derivatives(); });
 }
@@ -245,8 +245,9 @@ LawVector DeformablePair::SecondDirectional(const Eigen::VectorXd& u, double s, 
   const Values<TwiceAlong> at = stencil.TwiceAlongCurve(columns.Scatter(direction), Place::Zero());
   Place second;
   for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
-    const TwiceAlong force = TwiceAlong(Constant<TwiceAlong>(forces[kNormal]) * at.gap_gradient[k]) +
-                             TwiceAlong(Constant<TwiceAlong>(forces[kTangent]) * TwiceAlong(at.slip * at.knot_gradient[k]));
+    const TwiceAlong force =
+        TwiceAlong(Constant<TwiceAlong>(forces[kNormal]) * at.gap_gradient[k]) +
+        TwiceAlong(Constant<TwiceAlong>(forces[kTangent]) * TwiceAlong(at.slip * at.knot_gradient[k]));
     second[static_cast<Eigen::Index>(k)] = force.derivatives()[0].derivatives()[0];
   }
   return columns.Gather(second);

@@ -42,8 +42,8 @@ double Walked(const DeformableBoundary& boundary, const Eigen::VectorXd& u, cons
 
 }  // namespace
 
-double DeformablePair::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du,
-                              double ds, int patch_after) const {
+double DeformablePair::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
+                              const Eigen::VectorXd& du, double ds, int patch_after) const {
   if (port == kNormal) return Law::Travel(port, u, s, patch, du, ds, patch_after);
   const auto foot_at = [this](const Eigen::VectorXd& at, int known) {
     // Away from the surface as past its end.

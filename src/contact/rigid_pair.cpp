@@ -22,7 +22,8 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
   of_surface.seamless = surface_->Seamless();
   const XiRange range = surface_->Range();
   if (surface_->Closed()) of_surface.round = range.end - range.begin;
-  if (slip_origin) of_surface.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
+  if (slip_origin)
+    of_surface.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
   for (const int dof : motion.dofs)
     if (dof >= 0) traits.dofs.push_back(dof);
   const auto last = static_cast<Eigen::Index>(traits.dofs.size());

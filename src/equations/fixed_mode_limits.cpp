@@ -68,8 +68,7 @@ std::vector<Limit> FixedModeSystem::Limits() const {
 bool FixedModeSystem::IsWeaklyActive(const Limit& limit, const Eigen::VectorXd& x,
                                      const ActiveSetTolerance& tolerance) const {
   const LimitRule& rule = RuleOf(limit);
-  return rule.OfRate() ||
-         Value(limit, x) <= (rule.OfForces() ? tolerance.force : tolerance.motion) * rule.unit;
+  return rule.OfRate() || Value(limit, x) <= (rule.OfForces() ? tolerance.force : tolerance.motion) * rule.unit;
 }
 
 double FixedModeSystem::MotionValue(const Motion& motion, const Eigen::VectorXd& x) const {

@@ -228,8 +228,7 @@ void FixedModeSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residu
   }
   for (const MotionEquation& of : motions_) {
     (*residual)[of.equation] = MotionValue(of.motion, x);
-    if (of.compliance != 0.0)
-      (*residual)[of.equation] += of.compliance * x[UnknownOf(of.motion.law, of.motion.port)];
+    if (of.compliance != 0.0) (*residual)[of.equation] += of.compliance * x[UnknownOf(of.motion.law, of.motion.port)];
   }
   Eigen::Index k = 0;
   for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
@@ -289,9 +288,8 @@ const Eigen::SparseMatrix<double>& FixedModeSystem::TransposedJacobian(const Eig
   return WithTangent(x);
 }
 
-const Eigen::SparseMatrix<double>& FixedModeSystem::MixedJacobian(const Eigen::VectorXd& x,
-                                                                   const Eigen::VectorXd& from,
-                                                                   const Eigen::VectorXd& to) {
+const Eigen::SparseMatrix<double>& FixedModeSystem::MixedJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& from,
+                                                                  const Eigen::VectorXd& to) {
   structure_.MixedTangent(x.head(NumDofs()), from.head(NumDofs()), to.head(NumDofs()), &tangent_);
   return WithTangent(x);
 }

@@ -29,8 +29,8 @@ Eigen::Vector3d Law::FactorAlong(std::size_t /*port*/, const Eigen::VectorXd& /*
   return Eigen::Vector3d::UnitX();
 }
 
-double Law::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du, double ds,
-                   int piece_after) const {
+double Law::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du,
+                   double ds, int piece_after) const {
   if (!Curved()) return TravelRate(port, u, s, piece, du, ds);
   PortReals reference{};
   reference[port] = Motion(port, u, s, piece, {});

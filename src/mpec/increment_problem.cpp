@@ -59,7 +59,8 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
       slot.lambda = num_variables_++;
       slot.friction_row = num_constraints_;
       num_constraints_ += 5;
-      const double rt = at_start[kTangent].factor * TangentialReaction(from_, static_cast<std::size_t>(working_set_[i]));
+      const double rt =
+          at_start[kTangent].factor * TangentialReaction(from_, static_cast<std::size_t>(working_set_[i]));
       const LawVector& gradient = at_start[kTangent].gradient;
       at_start.AddForce(gradient, rt, &drive);
       drive[nd] += rt * gradient[gradient.size() - 1];  // the motion of the obstacle
@@ -89,8 +90,10 @@ PortsAt IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::Vector
     at.dofs = slot.dofs;
     at[kNormal].gradient = slot.at_start[kNormal].gradient;
     at[kTangent].gradient = slot.at_start[kTangent].gradient;
-    at[kNormal].motion = slot.at_start[kNormal].motion / goal_.length + at.Rate(at[kNormal].gradient, x.head(nd), x[nd]);
-    at[kTangent].motion = (slot.at_start[kTangent].motion - slot.reference) / goal_.length + at.Rate(at[kTangent].gradient, x.head(nd), x[nd]);
+    at[kNormal].motion =
+        slot.at_start[kNormal].motion / goal_.length + at.Rate(at[kNormal].gradient, x.head(nd), x[nd]);
+    at[kTangent].motion = (slot.at_start[kTangent].motion - slot.reference) / goal_.length +
+                          at.Rate(at[kTangent].gradient, x.head(nd), x[nd]);
     return at;
   }
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
@@ -151,10 +154,12 @@ std::vector<IncrementProblem::Zeros> IncrementProblem::ZerosAt(const PathPoint& 
       zeros.push_back({{row, 0.5 * (limit - rt)}, {row + 3, 0.5 * (lambda + at[kTangent].motion)}});
     else if (state == ContactState::kSlipMinus)
       zeros.push_back({{row + 1, 0.5 * (limit + rt)}, {row + 2, 0.5 * (lambda - at[kTangent].motion)}});
-    else if (at[kNormal].motion > mu * (lambda + std::abs(at[kTangent].motion)))  // both products are of these two: the larger one counts
+    else if (at[kNormal].motion >
+             mu * (lambda + std::abs(at[kTangent].motion)))  // both products are of these two: the larger one counts
       zeros.push_back({{row + 2, 0.5 * at[kNormal].motion / mu}, {row + 3, 0.5 * at[kNormal].motion / mu}});
     else
-      zeros.push_back({{row + 2, 0.5 * (lambda - at[kTangent].motion)}, {row + 3, 0.5 * (lambda + at[kTangent].motion)}});
+      zeros.push_back(
+          {{row + 2, 0.5 * (lambda - at[kTangent].motion)}, {row + 3, 0.5 * (lambda + at[kTangent].motion)}});
   }
   return zeros;
 }

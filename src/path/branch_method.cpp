@@ -235,8 +235,7 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   record->complete = at.event.crossing->across.size() == 1;
   record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
-  const std::vector<Branch> branches =
-      BifurcationBranches(arc_, *at.event.crossing, limit_.parameter());
+  const std::vector<Branch> branches = BifurcationBranches(arc_, *at.event.crossing, limit_.parameter());
   RecordBranches(model_, branches, record);
   const std::size_t stable = limit_.IsFollowed() ? branches.size() : StableBranch(branches);
   facts->stable_ahead = limit_.monitor() != nullptr && stable < branches.size();
@@ -325,7 +324,8 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
   const auto i = static_cast<std::size_t>(at.event.fails->law);
   const Law& law = model_.laws[i];
   if (!law.Rule(point.modes[i].state, at.event.fails->id).OfPiece() ||
-      law.Exists(law.Next(point.modes[i], at.event.fails->id))) return false;
+      law.Exists(law.Next(point.modes[i], at.event.fails->id)))
+    return false;
   // Where it bears, its limit of forces is not at zero.
   const Modes modes = model_.laws.ModesAt(point, i, departure_.ToleranceAt(point));
   return std::none_of(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).idle; });

@@ -39,8 +39,8 @@ Cause NoBranch(const BranchSet& on) {
 
 void RecordBranches(const Model& model, const std::vector<Branch>& branches, EventRecord* record) {
   for (const Branch& branch : branches)
-    record->branches.push_back(
-        {ContactStatesOf(branch.modes, model.contacts.size()), branch.load_rate, branch.parameter_rate, branch.dissipation_rate, branch.turn});
+    record->branches.push_back({ContactStatesOf(branch.modes, model.contacts.size()), branch.load_rate,
+                                branch.parameter_rate, branch.dissipation_rate, branch.turn});
 }
 
 std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
@@ -73,8 +73,8 @@ Arrival Departure::StartArrival() const {
   return arrival;
 }
 
-std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice,
-                                    ModeArc* arc, CurvePoint* current, EventRecord* record) {
+std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, ModeArc* arc,
+                                    CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
   arrival.parameter = options_.parameter;
   arrival.forward = options_.forward && options_.parameter.Sense(arrival.direction, arrival.direction.size()) >= 0;

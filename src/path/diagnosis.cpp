@@ -97,7 +97,8 @@ double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::si
   const ContactPair& pair = *model.contacts[contact];
   const double gap = std::abs(pair.Gap(model.structure.Start(), 0.0, kNearestPatch));
   if (!(gap <= tolerances::kTouching)) return 0.0;
-  return tolerances::kMargin * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.modes[contact].piece);
+  return tolerances::kMargin * gap *
+         LargestOf(DiagonalStiffness(model, point), pair, point, point.modes[contact].piece);
 }
 
 // The element of a solid whose area has shrunk most at one of its integration points, if that is nearly to nothing.
@@ -231,9 +232,8 @@ Causes HiddenSlip(const Model& model, const PathPoint& point) {
 
 Causes BeyondHalfRound(const Model& model, const Residuals& residuals) {
   if (!(residuals.friction_law > tolerances::kAccepted)) return {};
-  const bool possible = std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& contact) {
-    return contact->Holonomic() && contact->Round() > 0.0;
-  });
+  const bool possible = std::any_of(model.contacts.begin(), model.contacts.end(),
+                                    [](const auto& contact) { return contact->Holonomic() && contact->Round() > 0.0; });
   if (!possible) return {};
   return {{sentences::kHalfRound}};
 }

@@ -83,8 +83,7 @@ Eigen::VectorXd MachineLimit::Push(const PathPoint& point, const Eigen::VectorXd
     int& state = released.modes[i].state;
     if (law.In(state).idle) continue;
     const auto idle = std::find_if(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).idle; });
-    const auto slides =
-        std::find_if(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).slides; });
+    const auto slides = std::find_if(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).slides; });
     if (idle != modes.end())
       state = idle->state;
     else if (!law.In(state).slides && !law.Holonomic() && slides != modes.end())

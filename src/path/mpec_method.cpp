@@ -39,9 +39,12 @@ constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
   const bool open = StateOf(point, i) == ContactState::kOpen;
   const double unit = contact.ForceUnit();
-  if ((open ? contact.Gap(point.u, point.s, point.modes[i].piece) : NormalReaction(point, i) / unit) <= tolerances::kTouching) return true;
+  if ((open ? contact.Gap(point.u, point.s, point.modes[i].piece) : NormalReaction(point, i) / unit) <=
+      tolerances::kTouching)
+    return true;
   return StateOf(point, i) == ContactState::kStick &&
-         contact.Friction() * NormalReaction(point, i) - std::abs(TangentialReaction(point, i)) <= tolerances::kTouching * unit;
+         contact.Friction() * NormalReaction(point, i) - std::abs(TangentialReaction(point, i)) <=
+             tolerances::kTouching * unit;
 }
 
 bool SomeNearlyActive(const ContactPairs& contacts, const PathPoint& point) {
@@ -66,12 +69,15 @@ bool StatesAgree(const ContactPairs& contacts, const Laws& laws, const PathPoint
   const double length = kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double force = kRegularisedState * largest * contacts[i]->ForceUnit();
-    const double slip = contacts[i]->Travel(kTangent, from.u, from.s, from.modes[i].piece, to.u - from.u, to.s - from.s, to.modes[i].piece);
+    const double slip = contacts[i]->Travel(kTangent, from.u, from.s, from.modes[i].piece, to.u - from.u, to.s - from.s,
+                                            to.modes[i].piece);
     const double margin = contacts[i]->Friction() * NormalReaction(to, i) - std::abs(TangentialReaction(to, i));
     const ContactState state = StateOf(to, i);
     if (state == ContactState::kOpen) {
       // Friction above 1 makes a force of a normal reaction that is none.
-      if (std::max(NormalReaction(to, i), std::abs(TangentialReaction(to, i))) > std::min(force, tolerances::kAcceptedRegularised)) return false;
+      if (std::max(NormalReaction(to, i), std::abs(TangentialReaction(to, i))) >
+          std::min(force, tolerances::kAcceptedRegularised))
+        return false;
       continue;
     }
     if (contacts[i]->Gap(to.u, to.s, to.modes[i].piece) > length) return false;
@@ -135,8 +141,8 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
 }
 
 bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
-  return started_ && !bent_ && SameStates(to.modes, from.modes) && Direction(from, to).dot(direction) < kSmallestCosine &&
-         !SomeNearlyActive(model_.contacts, from);
+  return started_ && !bent_ && SameStates(to.modes, from.modes) &&
+         Direction(from, to).dot(direction) < kSmallestCosine && !SomeNearlyActive(model_.contacts, from);
 }
 
 // A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,

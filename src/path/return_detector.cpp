@@ -16,10 +16,7 @@ constexpr std::size_t kMostReferences = 32;
 }  // namespace
 
 ReturnDetector::ReturnDetector(const Model& model, int every, const LargestReactionSoFar& largest_reaction)
-    : spacing_(every),
-      arc_(model.structure, model.laws),
-      laws_(model.laws),
-      largest_reaction_(largest_reaction) {}
+    : spacing_(every), arc_(model.structure, model.laws), laws_(model.laws), largest_reaction_(largest_reaction) {}
 
 void ReturnDetector::Add(int increment, const PathPoint& from, const PathPoint& to) {
   if (!first_) first_ = from;

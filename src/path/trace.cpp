@@ -276,8 +276,9 @@ class Tracer {
   // its target, or nothing holds the structure. Nothing: it may be; a stop criterion may yet be met.
   std::optional<Cause> Escape(const Model& model, std::optional<double> target, const PathPoint& before) const {
     const auto is_open = [](const Mode& mode) { return StateOf(mode) == ContactState::kOpen; };
-    const bool opened =
-        largest_reaction_.of_trace > 0.0 && std::all_of(point_.modes.begin(), point_.modes.begin() + static_cast<std::ptrdiff_t>(model.contacts.size()), is_open);
+    const bool opened = largest_reaction_.of_trace > 0.0 &&
+                        std::all_of(point_.modes.begin(),
+                                    point_.modes.begin() + static_cast<std::ptrdiff_t>(model.contacts.size()), is_open);
     if (!opened || !request_.options.stop.empty()) return std::nullopt;
     // The load of a structure that snaps may come back.
     const bool away = target && point_.s * *target < 0.0 && std::abs(point_.s) > std::abs(*target) &&

@@ -32,13 +32,12 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
     for (std::size_t p = 1; p < law.NumPorts(); ++p) {
       if (!state.ports[p].Follows() && !law.Holonomic()) continue;
       const Eigen::Index port = leading + static_cast<Eigen::Index>(p);
-      const double travel =
-          law.Travel(p, from.u, from.s, from.modes[i].piece, du, to.s - from.s, to.modes[i].piece);
+      const double travel = law.Travel(p, from.u, from.s, from.modes[i].piece, du, to.s - from.s, to.modes[i].piece);
       if (law.Holonomic())
         work.friction -= 0.5 * (from.forces[port] + to.forces[port]) * travel;
       else
-        work.friction += std::abs(state.ports[p].ratio) * (0.5 * (from.forces[leading] + to.forces[leading])) *
-                         std::abs(travel);
+        work.friction +=
+            std::abs(state.ports[p].ratio) * (0.5 * (from.forces[leading] + to.forces[leading])) * std::abs(travel);
     }
   }
   const Structure& structure = model.structure;

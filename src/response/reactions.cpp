@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 
-#include "contact_path/law/ports.h"
 #include "contact_path/contact/scene_contacts.h"
+#include "contact_path/law/ports.h"
 
 namespace contact_path {
 namespace {

@@ -19,8 +19,8 @@ namespace {
 
 // Largest motion of a step, of the extent of the structure and of the way from the start.
 constexpr double kStride = 0.01;
-// Steps on the way of a jump, at least. Half as long steps change the work of what slides by less than 1e-3 of itself: by
-// up to 5e-4 in scenes/snap_hook.yaml, by 6e-5 in scenes/stick_slip_chain.yaml, by 2e-5 in scenes/rough_arch.yaml.
+// Steps on the way of a jump, at least. Half as long steps change the work of what slides by less than 1e-3 of itself:
+// by up to 5e-4 in scenes/snap_hook.yaml, by 6e-5 in scenes/stick_slip_chain.yaml, by 2e-5 in scenes/rough_arch.yaml.
 constexpr double kLeastSteps = 200.0;
 // The same with inertia: a swing goes along the way once forth and back, and implicit Euler damps a swing of n steps
 // by pi / n of critical.
@@ -423,9 +423,8 @@ class Jumper {
 
 }  // namespace
 
-JumpResult Jump(const Structure& structure, const Laws& laws, const PathPoint& from,
-                const Eigen::VectorXd& push, const Machine& machine, bool checked,
-                const std::function<bool()>& cancelled) {
+JumpResult Jump(const Structure& structure, const Laws& laws, const PathPoint& from, const Eigen::VectorXd& push,
+                const Machine& machine, bool checked, const std::function<bool()>& cancelled) {
   return Jumper(structure, laws, from, machine, cancelled).Run(push, checked);
 }
 

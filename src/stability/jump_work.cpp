@@ -12,7 +12,8 @@ namespace {
 double RatioOf(const Law& law, std::size_t p) {
   double largest = 0.0;
   for (int state = 0; state < law.NumStates(); ++state)
-    if (const PortRule& port = law.In(state).ports[p]; port.Follows()) largest = std::max(largest, std::abs(port.ratio));
+    if (const PortRule& port = law.In(state).ports[p]; port.Follows())
+      largest = std::max(largest, std::abs(port.ratio));
   return largest;
 }
 

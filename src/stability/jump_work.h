@@ -20,8 +20,8 @@ struct Work {
   struct Slide {
     double slope = 0.0;   // how its force has fallen with its travel in the last step
     double length = 0.0;  // its travel in the last step, if that is a line of which both ends are known; else 0
-    // Travel since its law has begun to act, or another has, for which the force at its end alone is known, or none. Drag makes
-    // reactions of an impact there; the curve through those behind it leads back.
+    // Travel since its law has begun to act, or another has, for which the force at its end alone is known, or none.
+    // Drag makes reactions of an impact there; the curve through those behind it leads back.
     double owed = 0.0;
     // What was owed behind the last step, of which nothing of how the curve bends has been counted.
     std::optional<double> behind;
@@ -31,8 +31,8 @@ struct Work {
   bool after_impact = false;
 };
 
-// Of what slides by a parabola through the force at the ends of two steps, of loads, which are linear, by the trapezoidal
-// rule. What moves with s does no work: the setting rests, and a machine drives nothing but loads.
+// Of what slides by a parabola through the force at the ends of two steps, of loads, which are linear, by the
+// trapezoidal rule. What moves with s does no work: the setting rests, and a machine drives nothing but loads.
 class WorkOfMotion {
  public:
   // Both must outlive the rule.

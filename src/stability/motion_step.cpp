@@ -85,8 +85,7 @@ void MotionStepSolver::NoteActing(const PathPoint& from, const Change& change, c
   if (!law.In(from.modes[i]).idle || law.In(change.to).idle || !law.In(system_.modes()[i]).idle) return;
   const double s = x[system_.NumDofs()];
   const int piece = change.to.piece;
-  const double before = std::max(0.0, law.Motion(0, from.u, from.s, piece, {})),
-               after = law.Motion(0, x, s, piece, {});
+  const double before = std::max(0.0, law.Motion(0, from.u, from.s, piece, {})), after = law.Motion(0, x, s, piece, {});
   const double share = after < 0.0 ? before / (before - after) : 1.0;
   step->acts_after[i] = share;
   if (law.Holonomic()) return;

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/law/laws.h"
 #include "contact_path/equations/fixed_mode_system.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/stability/machine.h"
 #include "contact_path/structure/structure.h"
@@ -62,10 +62,10 @@ class MotionStepSolver {
   bool Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x, int* iterations);
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row);
   std::vector<Change> Changes(const Eigen::VectorXd& x) const;
-  // Other ports of a law that begins to act are measured from where its first motion is zero: by linear interpolation of
-  // the step.
+  // Other ports of a law that begins to act are measured from where its first motion is zero: by linear interpolation
+  // of the step.
   void NoteActing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x, Eigen::VectorXd* references,
-                   MotionStep* step) const;
+                  MotionStep* step) const;
 
   const Structure& structure_;
   const Laws& laws_;

@@ -69,7 +69,8 @@ TEST_F(NodeOnADisc, RatesAtAnEventAreThoseOfTheClosedForm) {
   const Laws laws = LawsOf(contacts_);
   const RateProblem problem(structure_, laws, point, point.modes, {0}, arrival);
   ASSERT_TRUE(problem.regular());
-  const std::optional<CondensedRates> rates = problem.Rates(StatesOf(ModesOf({ContactState::kSlipPlus, ContactState::kOpen})));
+  const std::optional<CondensedRates> rates =
+      problem.Rates(StatesOf(ModesOf({ContactState::kSlipPlus, ContactState::kOpen})));
   ASSERT_TRUE(rates);
   const double sign = rates->motion[kTangent] < 0.0 ? -1.0 : 1.0, speed = rate.head<3>().norm();
   EXPECT_NEAR(sign * rates->load, rate[2] / speed, 1e-7);

@@ -81,8 +81,7 @@ struct Corner {
 // rn and rt of both contacts.
 bool Holds(const std::vector<PathPoint>& points, const std::array<double, 4>& reactions) {
   return std::any_of(points.begin(), points.end(), [&](const PathPoint& point) {
-    return (point.forces - Eigen::Map<const Eigen::Vector4d>(reactions.data())).lpNorm<1>() <
-           1e-12;
+    return (point.forces - Eigen::Map<const Eigen::Vector4d>(reactions.data())).lpNorm<1>() < 1e-12;
   });
 }
 

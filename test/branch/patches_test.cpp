@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/mode_arc.h"
 #include "contact_path/branch/event_functions.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/geometry/point_curves.h"
 #include "contact_path/structure/structure.h"

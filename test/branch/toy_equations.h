@@ -60,8 +60,7 @@ class ToyEquations : public ArcEquations {
     return Column(F_(At(x, dx)), &Along::second);
   }
 
-  std::vector<Limit> LimitsInReach(const Eigen::VectorXd& /*x*/, double /*reach*/,
-                                        std::vector<Limit>* near) override {
+  std::vector<Limit> LimitsInReach(const Eigen::VectorXd& /*x*/, double /*reach*/, std::vector<Limit>* near) override {
     near->clear();
     std::vector<Limit> all;
     for (std::size_t i = 0; i < limits_.size(); ++i) all.push_back({static_cast<int>(i), 0});

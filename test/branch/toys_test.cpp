@@ -175,8 +175,7 @@ TEST(Toys, TwoCorners) {
     ASSERT_EQ(step.event.Kind(), EventKind::kContactEvent);
     EXPECT_NEAR(walk.at().x[0], 0.55, 1e-15);
     int zero = 0;
-    for (const int i : {0, 1})
-      zero += walk.arc().equations().Value({i, 0}, walk.at().x) <= tolerances::kActive ? 1 : 0;
+    for (const int i : {0, 1}) zero += walk.arc().equations().Value({i, 0}, walk.at().x) <= tolerances::kActive ? 1 : 0;
     EXPECT_EQ(zero, active);
   }
 }

@@ -39,10 +39,12 @@ TEST_F(Pairs, SecondDirectionalMeetsDifferencesOfTheForce) {
 TEST_F(Pairs, SlipIsTheChangeOfXiAndItsRateTheLimitOfSlip) {
   const Eigen::VectorXd du = random_.Vector(u_.size(), -0.1, 0.1);
   for (const auto& pair : contacts_) {
-    EXPECT_NEAR(pair->Travel(kTangent, u_, 0.2, 0, du, 0.05, 0), pair->Xi(u_ + du, 0.25, 0) - pair->Xi(u_, 0.2, 0), kRounding);
+    EXPECT_NEAR(pair->Travel(kTangent, u_, 0.2, 0, du, 0.05, 0), pair->Xi(u_ + du, 0.25, 0) - pair->Xi(u_, 0.2, 0),
+                kRounding);
     const double h = 1e-5;
     EXPECT_NEAR(pair->TravelRate(kTangent, u_, 0.2, 0, du, 0.05),
-                pair->Travel(kTangent, u_ - h * du, 0.2 - h * 0.05, 0, 2.0 * h * du, 2.0 * h * 0.05, 0) / (2.0 * h), 1e-8);
+                pair->Travel(kTangent, u_ - h * du, 0.2 - h * 0.05, 0, 2.0 * h * du, 2.0 * h * 0.05, 0) / (2.0 * h),
+                1e-8);
   }
 }
 
@@ -54,7 +56,8 @@ TEST_F(Pairs, TheForceOfAReactionHasThePowerOfItsMotion) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(u_.size());
     at.AddForce(at[kNormal].gradient, 2.0, &force);
     at.AddForce(at[kTangent].gradient, -3.0, &force);
-    EXPECT_NEAR(force.dot(du), 2.0 * GapRate(*pair, u_, 0.2, du, 0.0) - 3.0 * pair->TravelRate(kTangent, u_, 0.2, 0, du, 0.0),
+    EXPECT_NEAR(force.dot(du),
+                2.0 * GapRate(*pair, u_, 0.2, du, 0.0) - 3.0 * pair->TravelRate(kTangent, u_, 0.2, 0, du, 0.0),
                 kRounding);
   }
 }

@@ -86,7 +86,8 @@ TEST_F(DeformablePairs, GradientsMeetDifferences) {
       return Eigen::Vector3d(moved[kNormal].motion, moved[kTangent].motion, moved[kTangent].factor);
     };
     Eigen::MatrixXd gradients(3, at[kNormal].gradient.size());
-    gradients << at[kNormal].gradient.transpose(), at[kTangent].gradient.transpose(), at[kTangent].factor_gradient.transpose();
+    gradients << at[kNormal].gradient.transpose(), at[kTangent].gradient.transpose(),
+        at[kTangent].factor_gradient.transpose();
     EXPECT_TRUE(IsJacobian(values, Start(of), gradients, kDerivativeTolerance, 1e-3)) << of.name;
     EXPECT_NEAR(of.contact.pair->Gap(of.contact.u, 0.0, of.patch), at[kNormal].motion, kRounding);
     EXPECT_NEAR(at[kNormal].motion, 0.12, 1e-2) << of.name;
@@ -97,8 +98,12 @@ TEST_F(DeformablePairs, GradientsMeetDifferences) {
 TEST_F(DeformablePairs, HessiansMeetDifferences) {
   for (const Case& of : cases_) {
     const PortsAt at = At(of, of.contact.u);
-    const auto of_gap = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q))[kNormal].gradient); };
-    const auto of_xi = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q))[kTangent].gradient); };
+    const auto of_gap = [&](const Eigen::VectorXd& q) {
+      return Eigen::VectorXd(At(of, Moved(of, q))[kNormal].gradient);
+    };
+    const auto of_xi = [&](const Eigen::VectorXd& q) {
+      return Eigen::VectorXd(At(of, Moved(of, q))[kTangent].gradient);
+    };
     EXPECT_TRUE(IsJacobian(of_gap, Start(of), at[kNormal].hessian, kDerivativeTolerance, 1e-3)) << of.name;
     EXPECT_TRUE(IsJacobian(of_xi, Start(of), at[kTangent].hessian, kDerivativeTolerance, 1e-3)) << of.name;
   }

@@ -166,8 +166,8 @@ TEST_F(RigidPairs, SlipRunsOnOverPatches) {
   const RigidPair pair(line, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
   const Eigen::VectorXd from = Eigen::Vector2d(0.2, 0.0), to = Eigen::Vector2d(2.0, 0.5);
   const double turn = std::atan(0.5), cut = 0.2 * std::tan(0.5 * turn);
-  EXPECT_NEAR(pair.Travel(kTangent, from, 0.0, 0, to - from, 0.0, 2), 0.8 + std::hypot(1.0, 0.5) - 2.0 * cut + 0.2 * turn,
-              kRounding);
+  EXPECT_NEAR(pair.Travel(kTangent, from, 0.0, 0, to - from, 0.0, 2),
+              0.8 + std::hypot(1.0, 0.5) - 2.0 * cut + 0.2 * turn, kRounding);
 }
 
 // A node that slides on a disc from its top by a quarter of a circle at the distance g.

@@ -167,7 +167,8 @@ class CurvedSystem : public testing::Test {
 TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
   for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus}) {
     const State other = state == State::kStick ? State::kSlipPlus : State::kStick;
-    system_.SetModes(ModesOf({state, other, state, other, state == State::kOpen ? State::kOpen : State::kClosed}), ByPort(random_.Vector(5, -0.3, 0.3)));
+    system_.SetModes(ModesOf({state, other, state, other, state == State::kOpen ? State::kOpen : State::kClosed}),
+                     ByPort(random_.Vector(5, -0.3, 0.3)));
     for (const bool active : {false, true}) {
       if (active) system_.SetActive(system_.Limits());
       const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
@@ -189,7 +190,8 @@ TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
 }
 
 TEST_F(CurvedSystem, ValuesAlongACurveMeetDifferences) {
-  system_.SetModes(ModesOf({State::kSlipPlus, State::kStick, State::kSlipMinus, State::kSlipPlus, State::kOpen}), ByPort(random_.Vector(5, -0.3, 0.3)));
+  system_.SetModes(ModesOf({State::kSlipPlus, State::kStick, State::kSlipMinus, State::kSlipPlus, State::kOpen}),
+                   ByPort(random_.Vector(5, -0.3, 0.3)));
   const Eigen::VectorXd x = RandomUnknowns(), first = random_.Vector(system_.NumUnknowns(), -1.0, 1.0),
                         second = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
   const auto on_curve = [&](double h) { return Eigen::VectorXd(x + h * first + 0.5 * h * h * second); };
@@ -219,7 +221,9 @@ TEST_F(CurvedSystem, ValuesAlongACurveMeetDifferences) {
 }
 
 TEST_F(MixedSystem, PatternStaysTheSameBetweenEvaluations) {
-  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kStick, State::kClosed}), ByPort(reference_));
+  system_.SetModes(
+      ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kStick, State::kClosed}),
+      ByPort(reference_));
   const Eigen::SparseMatrix<double> first = system_.TransposedJacobian(system_.Pack(RandomPoint()));
   const Eigen::SparseMatrix<double>& second = system_.TransposedJacobian(system_.Pack(RandomPoint()));
   ASSERT_EQ(first.nonZeros(), second.nonZeros());
@@ -244,7 +248,9 @@ TEST_F(MixedSystem, UnpackGivesEveryContactItsReactions) {
 }
 
 TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
-  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}), ByPort(reference_));
+  system_.SetModes(
+      ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}),
+      ByPort(reference_));
   const PathPoint point = RandomPoint();
   const Eigen::VectorXd x = system_.Pack(point);
   const auto slip = [&](std::size_t i) {
@@ -255,16 +261,17 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
     ContactLimit limit;
     double value;
   };
-  const std::vector<Expected> expected = {{0, ContactLimit::kNormalReaction, NormalReaction(point, 0)},
-                                          {0, ContactLimit::kConePlus, 0.3 * NormalReaction(point, 0) + TangentialReaction(point, 0)},
-                                          {0, ContactLimit::kConeMinus, 0.3 * NormalReaction(point, 0) - TangentialReaction(point, 0)},
-                                          {1, ContactLimit::kNormalReaction, NormalReaction(point, 1)},
-                                          {2, ContactLimit::kNormalReaction, NormalReaction(point, 2)},
-                                          {2, ContactLimit::kSlip, slip(2)},
-                                          {3, ContactLimit::kNormalReaction, NormalReaction(point, 3)},
-                                          {3, ContactLimit::kSlip, -slip(3)},
-                                          {4, ContactLimit::kGap, contacts_[4]->Gap(point.u, point.s, 0)},
-                                          {5, ContactLimit::kGap, contacts_[5]->Gap(point.u, point.s, 0)}};
+  const std::vector<Expected> expected = {
+      {0, ContactLimit::kNormalReaction, NormalReaction(point, 0)},
+      {0, ContactLimit::kConePlus, 0.3 * NormalReaction(point, 0) + TangentialReaction(point, 0)},
+      {0, ContactLimit::kConeMinus, 0.3 * NormalReaction(point, 0) - TangentialReaction(point, 0)},
+      {1, ContactLimit::kNormalReaction, NormalReaction(point, 1)},
+      {2, ContactLimit::kNormalReaction, NormalReaction(point, 2)},
+      {2, ContactLimit::kSlip, slip(2)},
+      {3, ContactLimit::kNormalReaction, NormalReaction(point, 3)},
+      {3, ContactLimit::kSlip, -slip(3)},
+      {4, ContactLimit::kGap, contacts_[4]->Gap(point.u, point.s, 0)},
+      {5, ContactLimit::kGap, contacts_[5]->Gap(point.u, point.s, 0)}};
   const std::vector<Limit> limits = system_.Limits();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {
@@ -275,7 +282,9 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
 }
 
 TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
-  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}), ByPort(reference_));
+  system_.SetModes(
+      ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}),
+      ByPort(reference_));
   const std::vector<Limit> limits = system_.Limits();
   const Eigen::VectorXd x = system_.Pack(RandomPoint());
   system_.SetActive(limits);
@@ -289,7 +298,9 @@ TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
 }
 
 TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
-  system_.SetModes(ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}), ByPort(reference_));
+  system_.SetModes(
+      ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}),
+      ByPort(reference_));
   const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
   for (const Limit& limit : system_.Limits()) {
     const auto value = [&](const Eigen::VectorXd& at) {

@@ -67,7 +67,8 @@ TEST_F(SlidingBarNearest, PinnedLoadFactorIsMet) {
 
 TEST_F(SlidingBarNearest, EquationsThatContradictEachOtherDoNotConverge) {
   system_.SetModes(ModesOf({ContactState::kStick}), Eigen::Vector2d(0.0, -3.0));
-  system_.SetActive({{0, NumberOf(ContactLimit::kNormalReaction)}});  // b held away from rest length without a normal reaction
+  system_.SetActive(
+      {{0, NumberOf(ContactLimit::kNormalReaction)}});  // b held away from rest length without a normal reaction
   const Eigen::VectorXd start = PackClosedForm(-3.0);
   EXPECT_FALSE(FindNearestPoint(&system_, start, start.head(3)).converged);
 }

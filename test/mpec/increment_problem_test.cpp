@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "contact_path/contact/scene_contacts.h"
+#include "support/contact_points.h"
 #include "support/curved_contacts.h"
 #include "support/deformable_scene.h"
-#include "support/contact_points.h"
 #include "support/derivative_checker.h"
 #include "support/mixed_scene.h"
 #include "support/random.h"
@@ -301,7 +301,8 @@ TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   Eigen::Index row = 6;
   for (const int contact : GetParam()) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
-    const double gap = pair.Gap(from_.u, from_.s, 0) / goal_.length, rn = NormalReaction(from_, static_cast<std::size_t>(contact)) / goal_.length;
+    const double gap = pair.Gap(from_.u, from_.s, 0) / goal_.length,
+                 rn = NormalReaction(from_, static_cast<std::size_t>(contact)) / goal_.length;
     EXPECT_NEAR(values[row], gap, 10.0 * kRounding);
     EXPECT_NEAR(values[row + 1], gap * rn, 100.0 * kRounding);
     row += 2;
@@ -366,7 +367,8 @@ TEST_P(MixedProblem, Gamma2FactorShortensTheMinimiserAndDissipationTurnsItAgains
   for (const int contact : GetParam()) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
     if (!pair.Frictional()) continue;
-    power += TangentialReaction(from_, static_cast<std::size_t>(contact)) * pair.Travel(kTangent, from_.u, from_.s, 0, against.head(6) - from_.u, 0.0, 0);
+    power += TangentialReaction(from_, static_cast<std::size_t>(contact)) *
+             pair.Travel(kTangent, from_.u, from_.s, 0, against.head(6) - from_.u, 0.0, 0);
     friction += std::abs(TangentialReaction(from_, static_cast<std::size_t>(contact)));
   }
   if (friction > 0.0) {

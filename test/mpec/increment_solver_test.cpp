@@ -119,7 +119,8 @@ TEST_F(SlidingBarIncrement, IpoptGivesAnExactPointOfTheClosedForm) {
   EXPECT_NEAR(trial.point.s, sliding_bar::LoadFactor(x), kRounding);
   EXPECT_NEAR(NormalReaction(trial.point, 0), sliding_bar::NormalReaction(x), kRounding);
   EXPECT_EQ(TangentialReaction(trial.point, 0), -sliding_bar::kFriction * NormalReaction(trial.point, 0));
-  EXPECT_EQ(ContactStatesOf(trial.point.modes), (std::vector<ContactState>{ContactState::kSlipPlus, ContactState::kOpen}));
+  EXPECT_EQ(ContactStatesOf(trial.point.modes),
+            (std::vector<ContactState>{ContactState::kSlipPlus, ContactState::kOpen}));
   // The tangent is the direction: the length is the wanted one, less the share of dissipation across it.
   EXPECT_NEAR(Distance(from_, trial.point), goal_.length, 0.1 * goal_.length);
 }

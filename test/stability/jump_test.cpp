@@ -133,8 +133,7 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
   Machine machine;
   machine.stiffness = 0.5 * kC * kHeight * kHeight / unit / (f * f);
   const PathPoint from = At(0.0, 0.0);
-  const JumpResult jump =
-      Jump(model_.structure, model_.laws, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr);
+  const JumpResult jump = Jump(model_.structure, model_.laws, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr);
   ASSERT_TRUE(jump.landing);
   EXPECT_TRUE(jump.robust);
   // W' = -k y with W' = c y (y^2 - h^2): y^2 = h^2 / 2.
@@ -145,8 +144,7 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
   EXPECT_NEAR(jump.landing->loads, mean, 1e-12);
   EXPECT_GT(jump.landing->energy_released(), 0.0);
   machine.stiffness *= 2.1;
-  EXPECT_TRUE(
-      Jump(model_.structure, model_.laws, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr).came_back);
+  EXPECT_TRUE(Jump(model_.structure, model_.laws, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr).came_back);
 }
 
 // ----- the truss lies on its side on a rough floor, pressed onto it by the constant load N
@@ -227,8 +225,8 @@ TEST(Jump, CanBeCancelled) {
   PathPoint from = model.InitialPoint();
   from.u = Eigen::Vector2d(0.0, 0.0);
   int asked = 0;
-  const JumpResult jump = Jump(model.structure, model.laws, from, Eigen::Vector2d(0.0, -1.0), {}, true,
-                               [&asked] { return ++asked > 20; });
+  const JumpResult jump =
+      Jump(model.structure, model.laws, from, Eigen::Vector2d(0.0, -1.0), {}, true, [&asked] { return ++asked > 20; });
   EXPECT_TRUE(jump.cancelled);
   EXPECT_FALSE(jump.landing);
 }
@@ -289,8 +287,8 @@ TEST(JumpOfAnExample, RoughTrussUnderDisplacementControl) {
   const PathPoint from = model.FromIncrement(*corner);
   Machine machine;
   machine.stiffness = std::numeric_limits<double>::infinity();
-  const JumpResult jump = Jump(model.structure, model.laws, from, model.FromIncrement(*(corner + 1)).u - from.u,
-                               machine, true, nullptr);
+  const JumpResult jump =
+      Jump(model.structure, model.laws, from, model.FromIncrement(*(corner + 1)).u - from.u, machine, true, nullptr);
   for (const Drag drag : {Drag::kUniform, Drag::kStiffness}) {
     const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
     ASSERT_TRUE(landing);

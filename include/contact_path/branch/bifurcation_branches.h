@@ -12,8 +12,7 @@ namespace contact_path {
 
 // The arc itself, which goes on, comes first. Then both directions of each path that crosses the arc, without those
 // that let a law slide back.
-std::vector<Branch> BifurcationBranches(const ModeArc& arc, const Crossing& crossing,
-                                        const PathParameter& parameter);
+std::vector<Branch> BifurcationBranches(const ModeArc& arc, const Crossing& crossing, const PathParameter& parameter);
 
 }  // namespace contact_path
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/branch/path_parameter.h"
-#include "contact_path/law/laws.h"
 #include "contact_path/equations/fixed_mode_system.h"
+#include "contact_path/law/active_set_tolerance.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -72,8 +72,8 @@ struct BranchSet {
   int rigid_modes = 0;     // most motions found that change neither load nor reactions where nothing else moves
 };
 
-// -force . rate of what the force works along, >= 0, of the ports that follow, with the forces of the point. A holonomic
-// law, which opposes no motion but a distance, dissipates nothing: 0. direction: (du, ds).
+// -force . rate of what the force works along, >= 0, of the ports that follow, with the forces of the point. A
+// holonomic law, which opposes no motion but a distance, dissipates nothing: 0. direction: (du, ds).
 double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& point, const Eigen::VectorXd& direction);
 
 // All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all laws that slide, and
@@ -87,9 +87,8 @@ double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& po
 // branch of arrival. Where there are more of them, and that problem does not exist or leaves a sense open, principal
 // pivoting on the rates (rate_problem.h) selects combinations from several first guesses; if there is no branch then,
 // up to 4^8 are all tried. All are tried alike. cancelled: asked often; may be empty.
-BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& tolerance,
-                       const std::function<bool()>& cancelled = nullptr);
+BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point, const Arrival& arrival,
+                       const ActiveSetTolerance& tolerance, const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path
 

@@ -11,11 +11,11 @@ namespace contact_path {
 
 // In the order in which facts at one place are acted on, the last one first.
 enum class EventKind {
-  kNone,         // the whole step is good
-  kNearTouch,    // a limit comes so near to zero inside that only an increment there can tell; or an idle law comes
-                 // to the next piece of its curves
-  kBifurcation,  // other curves cross
-  kLimitPoint,   // ds = 0
+  kNone,          // the whole step is good
+  kNearTouch,     // a limit comes so near to zero inside that only an increment there can tell; or an idle law comes
+                  // to the next piece of its curves
+  kBifurcation,   // other curves cross
+  kLimitPoint,    // ds = 0
   kContactEvent,  // a limit reaches zero and would be broken
   kSample,        // a function of the unknowns comes to a value at which a step is to end
   kTarget,        // the load factor comes to where the path is to end
@@ -30,7 +30,7 @@ struct StepEvent {
   };
 
   double t = 0.0;                         // parameter of the step
-  std::optional<Limit> fails = {};   // the limit that reaches zero and would be broken
+  std::optional<Limit> fails = {};        // the limit that reaches zero and would be broken
   bool turns = false;                     // ds = 0
   std::optional<Crossing> crossing = {};  // other curves cross
   bool singular = false;  // more than one other curve crosses where the load turns, as at two dead centres at once

@@ -64,10 +64,10 @@ class RateComplementarity {
   const std::vector<int>& weakly_active_;
   std::vector<int> base_;  // state, by weakly active law
   std::vector<Pair> pairs_;
-  std::vector<int> turn_;           // by port: when it is decided whether its motion is given
-  Eigen::VectorXd compliance_;      // by port
-  Eigen::MatrixXd matrix_;          // scaled so that its diagonal is of the order of 1
-  Eigen::VectorXd load_;            // of s' = 1
+  std::vector<int> turn_;       // by port: when it is decided whether its motion is given
+  Eigen::VectorXd compliance_;  // by port
+  Eigen::MatrixXd matrix_;      // scaled so that its diagonal is of the order of 1
+  Eigen::VectorXd load_;        // of s' = 1
   bool exists_ = false;
   bool unique_ = false;
 };

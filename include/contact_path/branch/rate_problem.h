@@ -21,8 +21,8 @@ struct CondensedRates {
 };
 
 // du = ds w + W p, w the displacement by the load and W those by unit forces of the ports of the weakly active laws,
-// all other laws in their modes. Springs hold these ports while w and W are computed, so that a structure that only they
-// support can be condensed, too; their forces are then part of p. One factorisation of the structure serves all
+// all other laws in their modes. Springs hold these ports while w and W are computed, so that a structure that only
+// they support can be condensed, too; their forces are then part of p. One factorisation of the structure serves all
 // combinations of states.
 class RateProblem {
  public:

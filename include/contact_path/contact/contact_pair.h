@@ -93,7 +93,9 @@ class ContactPair : public Law {
   Modes ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
                 const ActiveSetTolerance& tolerance) const override;
   void AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const override;
-  void AddNear(const Mode& mode, int law, std::vector<Limit>* limits) const override { AddPatchEnds(mode, law, limits); }
+  void AddNear(const Mode& mode, int law, std::vector<Limit>* limits) const override {
+    AddPatchEnds(mode, law, limits);
+  }
   double BoundOf(const Mode& mode, int id) const override;
   Mode Next(const Mode& mode, int id) const override;
   Mode NextAt(const Eigen::VectorXd& u, double s, const Mode& mode, int id) const override;

@@ -22,7 +22,8 @@ class DeformablePair : public ContactPair {
                  const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
 
   LawDofs Dofs(int patch) const override;
-  void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference, PortsAt* ports) const override;
+  void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
+                PortsAt* ports) const override;
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
   // The distance is less by the radius than that from the spline: of a node within the radius it is below 0.
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
@@ -35,7 +36,7 @@ class DeformablePair : public ContactPair {
   LawVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
                               const LawVector& direction) const override;
   Eigen::Vector3d FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int patch, const LawVector& first,
-                                  const LawVector& second) const override;
+                              const LawVector& second) const override;
   // Of the tangential port the mean of two lengths between both feet, on the shapes of the surface before and after;
   // past an end of the surface, the foot is its end.
   double Travel(std::size_t port, const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,

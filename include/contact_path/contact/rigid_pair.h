@@ -36,7 +36,8 @@ class RigidPair : public ContactPair {
             const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
             const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt);
 
-  void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference, PortsAt* ports) const override;
+  void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
+                PortsAt* ports) const override;
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
   int PatchAt(const Eigen::VectorXd& u, double s) const override;

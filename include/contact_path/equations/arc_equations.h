@@ -34,8 +34,7 @@ class ArcEquations {
 
   // Limits that a step of this length from x may reach. near: functions at whose zero an increment is wanted, and
   // nothing fails.
-  virtual std::vector<Limit> LimitsInReach(const Eigen::VectorXd& x, double reach,
-                                                std::vector<Limit>* near) = 0;
+  virtual std::vector<Limit> LimitsInReach(const Eigen::VectorXd& x, double reach, std::vector<Limit>* near) = 0;
   // Whether a limit is broken at x that the last LimitsInReach() did not name.
   virtual bool BeyondReach(const Eigen::VectorXd& /*x*/) const { return false; }
   // Whether the rate of the limit has to stay >= 0, and not its value.

@@ -76,8 +76,8 @@ class FixedModeSystem : public ArcEquations {
   const Frame* InFrame() override;
 
   // Limits of the laws that act, and those of idle ones that an increment of length `reach` may come to; near: the ends
-  // of pieces that idle laws in reach are beside. Laws are in the modes that they have at the start of a step from x: no
-  // equation changes.
+  // of pieces that idle laws in reach are beside. Laws are in the modes that they have at the start of a step from x:
+  // no equation changes.
   std::vector<Limit> LimitsInReach(const Eigen::VectorXd& x, double reach, std::vector<Limit>* near) override;
   // Whether an idle law of the last LimitsInReach() has passed its limit at x, on another piece than its own.
   bool BeyondReach(const Eigen::VectorXd& x) const override;

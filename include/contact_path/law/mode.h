@@ -17,9 +17,7 @@ struct Mode {
 
 inline bool operator==(const Mode& a, const Mode& b) { return a.state == b.state && a.piece == b.piece; }
 inline bool operator!=(const Mode& a, const Mode& b) { return !(a == b); }
-inline bool operator<(const Mode& a, const Mode& b) {
-  return std::tie(a.state, a.piece) < std::tie(b.state, b.piece);
-}
+inline bool operator<(const Mode& a, const Mode& b) { return std::tie(a.state, a.piece) < std::tie(b.state, b.piece); }
 
 using Modes = std::vector<Mode>;  // by law, or of one law
 

@@ -41,7 +41,8 @@ class IncrementProblem : public NonlinearProgram {
 
   void SetRegularisation(double eps) { eps_ = eps; }
 
-  // Variables for the guess from + S y with the reactions of the contacts at a point; without any, with those of `from`.
+  // Variables for the guess from + S y with the reactions of the contacts at a point; without any, with those of
+  // `from`.
   Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y, const PathPoint& reactions) const;
   Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const { return StartingPoint(y, from_); }
   // For a point that solves the equations of its states, is stationary for (9) on them and keeps their inequalities:
@@ -73,8 +74,8 @@ class IncrementProblem : public NonlinearProgram {
   struct Slot {
     const ContactPair* pair;
     int start_patch;              // where the increment starts
-    LawDofs dofs;                // of the patches that it may end on
-    PortsAt at_start;          // of the increment
+    LawDofs dofs;                 // of the patches that it may end on
+    PortsAt at_start;             // of the increment
     double reference;             // value of xi from which slip is measured: ContactPair::SlipReference()
     Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
     Eigen::Index gap_row;         // constraints: gap, gap r_n

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
+#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/law/path_point.h"
 #include "contact_path/law/reach_tracker.h"
-#include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/mpec/increment_problem.h"
 #include "contact_path/mpec/nonlinear_program.h"
 #include "contact_path/structure/structure.h"

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/mode_arc.h"
 #include "contact_path/branch/path_parameter.h"
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/law/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"

@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/branch/path_parameter.h"
 #include "contact_path/branch/step.h"
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/machine_setting.h"
 #include "contact_path/path/model.h"

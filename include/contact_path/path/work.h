@@ -3,8 +3,8 @@
 #define CONTACT_PATH_PATH_WORK_H_
 
 #include "contact_path/branch/step.h"
-#include "contact_path/law/path_point.h"
 #include "contact_path/equations/fixed_mode_system.h"
+#include "contact_path/law/path_point.h"
 #include "contact_path/path/model.h"
 
 namespace contact_path {

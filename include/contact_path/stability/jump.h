@@ -29,8 +29,8 @@ struct Landing {
   // proved, small disturbances come back.
   PathPoint point;
   double dissipated = 0.0;  // by what slides along the way [force length]; unless a law is holonomic >= 0
-  double loads = 0.0;     // of all loads, constant and scaled
-  double stored = 0.0;    // strain energy gained
+  double loads = 0.0;       // of all loads, constant and scaled
+  double stored = 0.0;      // strain energy gained
 
   double energy_released() const { return std::max(0.0, loads - dissipated - stored); }
 };
@@ -47,9 +47,8 @@ struct JumpResult {
 
 // push: the direction (u) in which the structure is disturbed, NumDofs(); its length does not matter. Both signs are
 // tried, + first. checked: the other drags are tried, too.
-JumpResult Jump(const Structure& structure, const Laws& laws, const PathPoint& from,
-                const Eigen::VectorXd& push, const Machine& machine, bool checked,
-                const std::function<bool()>& cancelled);
+JumpResult Jump(const Structure& structure, const Laws& laws, const PathPoint& from, const Eigen::VectorXd& push,
+                const Machine& machine, bool checked, const std::function<bool()>& cancelled);
 
 }  // namespace contact_path
 

@@ -8,9 +8,9 @@
 
 namespace contact_path {
 
-// Slips z >= 0 of ports at the edges of their cones meet w = H z >= 0, w . z = 0: where they stay at the edge, the force
-// that slip would overcome has grown by w. All functions take H with entries of one order of size. Functions that try
-// all sets of ports answer for at most kMostSlips ports.
+// Slips z >= 0 of ports at the edges of their cones meet w = H z >= 0, w . z = 0: where they stay at the edge, the
+// force that slip would overcome has grown by w. All functions take H with entries of one order of size. Functions that
+// try all sets of ports answer for at most kMostSlips ports.
 inline constexpr Eigen::Index kMostSlips = 12;
 
 // Whether z . F z > 0 for all z >= 0 other than 0 (Kaplan 2000: no principal submatrix has a positive eigenvector to an

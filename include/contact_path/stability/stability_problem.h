@@ -6,8 +6,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "contact_path/law/laws.h"
 #include "contact_path/equations/fixed_mode_system.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/symmetric_factors.h"
 #include "contact_path/stability/verdict.h"
@@ -25,7 +25,8 @@ struct Stability {
 // A disturbance grows by divergence if for some growth rate a >= 0 there are motions v and changes rho of the forces of
 // the ports other than 0 with
 //   (a^2 M + a C + K) v = N rho_n + T rho_t
-// n, t: leading port and port that follows it. K: tangent at fixed load factor, curvature of laws included (Martins, Barbarin, Raous & Pinto da Costa 1999).
+// n, t: leading port and port that follows it. K: tangent at fixed load factor, curvature of laws included (Martins,
+// Barbarin, Raous & Pinto da Costa 1999).
 //   what is held (D): v = 0
 //   sliding or about to with the sense sigma, at the edge of a cone mu (S):
 //     v_n = 0, 0 <= z = sigma v_t, 0 <= w = sigma rho_t + mu rho_n, z w = 0
@@ -56,8 +57,8 @@ class StabilityProblem {
 
  private:
   struct Slip {
-    double sense;  // sigma
-    double ratio;  // mu
+    double sense;                     // sigma
+    double ratio;                     // mu
     Eigen::Index leading, following;  // unknowns of the forces of its ports among those of the saddle
   };
 
