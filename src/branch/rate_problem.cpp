@@ -62,7 +62,7 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
   Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
   const Eigen::MatrixXd modes_of_parts = system.FreeMotions(x, transposed);
   free_.resize(num_ports_, modes_of_parts.cols());
-  bool dofs_by_piece = false;
+  bool couples = false;
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
     const auto i = static_cast<std::size_t>(weakly_active_[k]);
     const Law& law = laws[i];
@@ -74,13 +74,13 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
       AddSpring(at.dofs, at[p].gradient, kSpring * at[p].factor, nd, &transposed);
     }
     if (law.Curved()) AddCurvature(at, laws.Of(point.forces, i), nd, &transposed);
-    dofs_by_piece = dofs_by_piece || law.DofsByPiece();
+    couples = couples || law.Couples();
   }
   transposed.makeCompressed();
   BorderedSolver solver;
-  // Springs among dofs that depend on the piece have places of their own in the matrix.
+  // Springs among unknowns that elements do not couple have places of their own in the matrix.
   if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd),
-                        dofs_by_piece ? nullptr : system.InFrame()) ||
+                        couples ? nullptr : system.InFrame()) ||
       solver.DeterminantSign() == 0)
     return;
 

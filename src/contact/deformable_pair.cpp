@@ -123,7 +123,7 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
     : boundary_(std::move(boundary)), patches_(patches), node_(node) {
   Traits traits;
   traits.largest_ratio = friction;
-  traits.compliant = traits.dofs_by_piece = traits.curved = true;
+  traits.compliant = traits.couples = traits.curved = true;
   traits.moves[kNormal].set();
   traits.moves[kTangent].set();
   SurfaceTraits of_surface;

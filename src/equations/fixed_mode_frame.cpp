@@ -17,7 +17,7 @@ constexpr double kMostInFrame = 2.0;
 
 const Frame* FixedModeSystem::InFrame() {
   if (num_unknowns_ < kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ || !active_.empty() ||
-      dofs_by_piece_)
+      couples_)
     return nullptr;
   if (placed_) return &frame_;
   if (frame_.size == 0 || !std::includes(framed_.begin(), framed_.end(), acting_.begin(), acting_.end())) {

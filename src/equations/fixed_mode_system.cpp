@@ -90,7 +90,7 @@ void FixedModeSystem::NumberEquations() {
                        [&](const MotionEquation& of) { return has(laws_[of.motion.law]); });
   };
   curved_ = some([](const Law& law) { return law.Curved(); });
-  dofs_by_piece_ = some([](const Law& law) { return law.DofsByPiece(); });
+  couples_ = some([](const Law& law) { return law.Couples(); });
 }
 
 template <typename Emit>
@@ -255,6 +255,12 @@ Eigen::VectorXd FixedModeSystem::Rounding(const Eigen::VectorXd& x) const {
     for (const int dof : laws_[i].Dofs(modes_[i].piece)) rounding[dof] += kEpsilon * sum;
   }
   return rounding;
+}
+
+double FixedModeSystem::Energy(const Eigen::VectorXd& x) const {
+  double energy = structure_.Energy(x.head(NumDofs()));
+  for (const std::size_t i : acting_) energy += laws_[i].Energy(modes_[i], ForcesOf(i, x));
+  return energy;
 }
 
 double FixedModeSystem::Largest(const Eigen::VectorXd& residual) const {

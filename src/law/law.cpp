@@ -52,6 +52,12 @@ int Law::AllHeld() const {
   return static_cast<int>(std::find_if(states_.begin(), states_.end(), all) - states_.begin());
 }
 
+double Law::Energy(const Mode& mode, const PortReals& forces) const {
+  double energy = 0.0;
+  for (std::size_t p = 0; p < NumPorts(); ++p) energy += 0.5 * In(mode).ports[p].compliance * forces[p] * forces[p];
+  return energy;
+}
+
 void Law::AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const {
   for (const LimitRule& rule : In(mode).limits) limits->push_back({law, rule.id});
 }

@@ -30,6 +30,12 @@ Eigen::VectorXd Laws::ReferencesAt(const PathPoint& point) const {
   return references;
 }
 
+double Laws::Energy(const PathPoint& point) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < laws_.size(); ++i) energy += laws_[i]->Energy(point.modes[i], Of(point.forces, i));
+  return energy;
+}
+
 double Laws::LargestForce(const PathPoint& point) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < laws_.size(); ++i)

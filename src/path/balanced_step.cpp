@@ -38,9 +38,7 @@ std::optional<BalancedStep> NextBalancedStep(const Model& model, const BranchOpt
 bool Balance(const Model& model, const FixedModeSystem& system, std::optional<double> stored, BalancedStep* step) {
   const Step& of = step->at.step;
   const double unit = model.scaling.force * model.scaling.length;
-  const auto stored_at = [&](const Eigen::VectorXd& x) {
-    return model.structure.Energy(x.head(model.structure.NumDofs())) * unit;
-  };
+  const auto stored_at = [&](const Eigen::VectorXd& x) { return system.Energy(x) * unit; };
   const double before = stored ? *stored : stored_at(of.start.x);
   step->stored = before;
   if (!(of.length > 0.0)) return true;

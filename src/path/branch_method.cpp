@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "contact_path/branch/bifurcation_branches.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
@@ -13,7 +12,6 @@ namespace contact_path {
 namespace {
 
 constexpr int kMostEventsInPlace = 8;  // then the contacts chatter, and no branch is trusted
-constexpr double kAhead = 0.1;  // of the wanted step: where a branch, or a load that is level, is looked at again
 
 End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {{sentence}}}; }
 
@@ -27,9 +25,10 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       departure_(model, {limit_.parameter(), options.forward, !limit_.IsFollowed(), options.largest_reaction},
                  cancelled_),
       arc_(model.structure, model.laws),
+      events_(model, options_, &limit_, &departure_, &arc_),
+      onsets_(model, &limit_, &arc_),
       step_length_(options.step),
-      increments_(options.increments),
-      events_(options.events) {
+      increments_(options.increments) {
   ends_.load_factor = options.load_factor;
   if (options.watch) ends_.functions = options.watch(arc_.system());
 }
@@ -40,12 +39,6 @@ int BranchMethod::StiffnessSign(const CurvePoint& point) const {
   const double rate = point.first[arc_.NumMotion() - 1];
   const Eigen::Index reactions = arc_.system().NumUnknowns() - arc_.NumMotion();
   return (rate > 0.0 ? 1 : -1) * point.determinant_sign * (reactions % 2 == 0 ? 1 : -1);
-}
-
-std::vector<double> BranchMethod::CrossingPath(const Crossing& crossing) const {
-  const Eigen::Index motion = arc_.NumMotion();
-  const auto along = crossing.along.first.head(motion), across = crossing.across.front().first.head(motion);
-  return model_.ComponentsOf((across - across.dot(along) * along).normalized());
 }
 
 std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found) {
@@ -96,7 +89,7 @@ Advance BranchMethod::TakeJump(const PathPoint& from) {
     limit_.NoteLanding(from, increment.point, departure_.ToleranceAt(increment.point), &advance.end);
   } else {
     increment.kind = IncrementKind::kContactEvent;
-    increment.event.number = ++events_;
+    increment.event.number = events_.Count();
   }
   advance.increments.push_back(std::move(increment));
   return advance;
@@ -159,21 +152,14 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
 
 std::optional<PathPoint> BranchMethod::InnerPoint(const Step& step, const PathPoint& from) const {
   if (!options_.inner || !(step.length > 0.0)) return std::nullopt;
-  std::optional<PathPoint> point = PointApart(step, 0.5 * step.length);
+  std::optional<PathPoint> point = PointApart(model_, arc_, step, 0.5 * step.length);
   if (point && !(model_.Check(from, *point).Largest() <= tolerances::kAccepted)) point.reset();
   return point;
 }
 
-std::optional<PathPoint> BranchMethod::PointApart(const Step& step, double t) const {
-  ModeArc arc(model_.structure, model_.laws);
-  arc.SetModes(arc_.system().Unpack(step.start.x), arc_.Rests());
-  const Correction found = arc.CorrectOnPlane(step.Point(t), step.normal);
-  return found.converged ? std::optional(arc.system().Unpack(found.x)) : std::nullopt;
-}
-
 std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at) {
   Step& step = at->step;
-  if (options_.returns == nullptr || !(step.length > 0.0) || options_.HasChoiceAfter(increments_, events_))
+  if (options_.returns == nullptr || !(step.length > 0.0) || options_.HasChoiceAfter(increments_, events_.number()))
     return std::nullopt;
   const FixedModeSystem& system = arc_.system();
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step.end.x));
@@ -191,144 +177,16 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   return found->increment;
 }
 
-IncrementKind BranchMethod::Facts::Kind() const {
-  if (leaves_curve && load_turns) return IncrementKind::kCornerLimit;
-  if (contact_event) return IncrementKind::kContactEvent;
-  if (smooth_limit && !leaves_curve) return IncrementKind::kSmoothLimit;
-  if (bifurcation) return IncrementKind::kBifurcation;
-  if (sample) return IncrementKind::kSample;
-  return onset ? IncrementKind::kOnset : IncrementKind::kRegular;
-}
-
-std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
-  const EventKind kind = at.event.Kind();
-  if (kind == EventKind::kBifurcation) return PassBifurcation(at, increment, facts);
-  if (kind == EventKind::kContactEvent) return PassContactEvent(at, increment, facts);
-  facts->sample = kind == EventKind::kSample;
-  facts->smooth_limit = kind == EventKind::kLimitPoint;
-  if (facts->smooth_limit && at.event.crossing) {
-    increment->event.null_vector = CrossingPath(*at.event.crossing);
-    const bool turns =
-        limit_.parameter().Sense(current_.first, current_.second, arc_.NumMotion(), tolerances::kRate) < 0;
-    if (!limit_.IsFollowed() && turns) return PassBifurcation(at, increment, facts);
-  }
-  return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, facts);
-}
-
-std::size_t BranchMethod::StableBranch(const std::vector<Branch>& branches) {
-  const Eigen::Index n = arc_.NumMotion();
-  const double length = kAhead * options_.step;
-  const auto leads_on = [&](const Branch& branch) {
-    if (limit_.parameter().Sense(branch.first, branch.second, n, tolerances::kRate) < 0) return false;
-    const Eigen::VectorXd ahead = current_.x + length * branch.first + 0.5 * length * length * branch.second;
-    const Correction there = arc_.CorrectOnPlane(ahead, branch.first.head(n));
-    return there.converged && limit_.parameter().Rate(there.x - current_.x, n) > 0.0 &&
-           (limit_.monitor() == nullptr ||
-            limit_.monitor()->At(arc_.system().Unpack(there.x)).verdict == Verdict::kStable);
-  };
-  return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
-}
-
-std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
-  EventRecord* record = &increment->event;
-  facts->bifurcation = true;
-  record->complete = at.event.crossing->across.size() == 1;
-  record->null_vector = CrossingPath(*at.event.crossing);
-  record->number = ++events_;
-  const std::vector<Branch> branches = BifurcationBranches(arc_, *at.event.crossing, limit_.parameter());
-  RecordBranches(model_, branches, record);
-  const std::size_t stable = limit_.IsFollowed() ? branches.size() : StableBranch(branches);
-  facts->stable_ahead = limit_.monitor() != nullptr && stable < branches.size();
-  const auto goes_on = [&](const Branch& branch) {
-    return limit_.parameter().Sense(branch.first, arc_.NumMotion(), current_.load_error) > 0;
-  };
-  // Where none is known to be stable, the path itself goes on if it can.
-  std::size_t best = stable;
-  if (best == branches.size() && !limit_.IsFollowed())
-    best = static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), goes_on) - branches.begin());
-  End end_here;
-  const std::optional<std::size_t> taken =
-      ChosenOf(branches, options_.ChoiceAt(increments_, events_), best < branches.size() ? best : 0, &end_here);
-  if (!taken) return end_here;
-  record->taken = static_cast<int>(*taken) + 1;
-  if (*taken == 0) return std::nullopt;
-  TakeCurve(branches[*taken].first, branches[*taken].second, arc_.LoadFactor(), &current_);
-  facts->leaves_curve = true;
-  facts->load_turns = TurnsLoad(at);
-  if (facts->load_turns) record->null_vector.clear();
-  return std::nullopt;
-}
-
-std::optional<End> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
-  facts->contact_event = facts->leaves_curve = true;
-  increment->event.number = ++events_;
-  if (SlidesOff(at, increment->point)) {
-    return End{EndReason::kPathEnd, {SlidesOffCause(model_, *at.event.fails)}};
-  }
-  std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, events_), increment);
-  facts->load_turns = !end && TurnsLoad(at);
-  return end;
-}
-
-std::optional<End> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
-  const Modes modes = arc_.system().modes();
-  if (std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, 0), increment)) return end;
-  const bool goes_on = SameStates(arc_.system().modes(), modes) &&
-                       arc_.system().Norm(current_.first - at.step.end.first) <= tolerances::kSameTangent;
-  if (goes_on) {
-    if (!departure_.ChangesReactions()) current_ = at.step.end;
-    return std::nullopt;
-  }
-  facts->contact_event = facts->leaves_curve = true;
-  facts->load_turns = TurnsLoad(at);
-  increment->event.null_vector.clear();
-  return std::nullopt;
-}
-
-std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment) {
-  Arrival arrival;
-  arrival.direction = at.step.end.first.head(arc_.NumMotion());
-  arrival.singular = at.event.crossing.has_value() || at.event.singular;
-  if (at_start_) arrival = departure_.StartArrival();
-  if (FailsByRounding(at)) arrival.failed = at.event.fails;
-  return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
-}
-
-bool BranchMethod::FailsByRounding(const ArcStep& at) const {
-  if (at.event.Kind() != EventKind::kContactEvent || at.step.length > 0.0) return false;
-  const Limit& limit = *at.event.fails;
-  const double rate = arc_.system().Rate(limit, at.step.end.x, at.step.end.first);
-  return rate < 0.0 && rate >= -tolerances::kRate * arc_.system().UnitOf(limit);
-}
-
-bool BranchMethod::TurnsLoad(const ArcStep& at) {
-  const auto rate = [](double value) { return Measured{value, tolerances::kRate}; };
-  const Eigen::Index s = arc_.LoadFactor();
-  const int arrives = LeadingSign({rate(at.step.end.first[s]), rate(-at.step.end.second[s])});
-  int leaves = LeadingSign({rate(current_.first[s]), rate(current_.second[s])});
-  // A load that is level to second order may yet rise or fall; and where paths cross, a second derivative may be
-  // nothing but the distance of the located point from the crossing.
-  if (rate(current_.first[s]).Sign() == 0 && arrives != 0 && (leaves == 0 || at.event.crossing)) {
-    const Eigen::VectorXd normal = current_.first.head(s + 1);
-    const Correction there = arc_.CorrectOnPlane(current_.x + kAhead * options_.step * current_.first, normal);
-    CurvePoint point;
-    const bool found = there.converged && arc_.Derivatives(there.x, normal, &point);
-    const int beyond = found ? rate(point.first[s]).Sign() : leaves;
-    if (leaves == 0 || beyond == 0) leaves = beyond;
-  }
-  return arrives * leaves < 0;
-}
-
-bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
-  if (at.event.Kind() != EventKind::kContactEvent) return false;
-  const auto i = static_cast<std::size_t>(at.event.fails->law);
-  const Law& law = model_.laws[i];
-  if (!law.Rule(point.modes[i].state, at.event.fails->id).OfPiece() ||
-      law.Exists(law.Next(point.modes[i], at.event.fails->id)))
-    return false;
-  // Where it bears, its limit of forces is not at zero.
-  const Modes modes = model_.laws.ModesAt(point, i, departure_.ToleranceAt(point));
-  return std::none_of(modes.begin(), modes.end(), [&](const Mode& mode) { return law.In(mode).idle; });
+bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment) {
+  const std::optional<Onset> onset = onsets_.Find(next->at, increment->point);
+  if (!onset) return false;
+  next->at.step = MakeStep(next->at.step.start, onset->place, arc_.NumMotion());
+  next->at.event = StepEvent();
+  next->at.event.crossing = onset->crossing;
+  Balance(model_, arc_.system(), stored_, next);
+  *increment = IncrementOf(next->at, from);
+  onsets_.Note(onset->place, increment->point, onsets_.NullDirections(next->at));
+  return true;
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
@@ -366,7 +224,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   ++increments_;
 
   Advance advance;
-  Facts facts;
+  EventFacts facts;
   facts.onset = onset;
   if (returned) {
     facts.smooth_limit = at->event.Kind() == EventKind::kLimitPoint;
@@ -374,20 +232,20 @@ Advance BranchMethod::Next(const PathPoint& from) {
   } else if (Causes hidden = HiddenSlip(model_, increment.point); !hidden.empty()) {
     advance.end = {EndReason::kNotDetermined, hidden};
   } else {
-    advance.end = PassEnd(*at, &increment, &facts);
+    advance.end = events_.Pass(*at, {increments_, at_start_}, &increment, &current_, &facts);
   }
   increment.kind = facts.Kind();
   if (limit_.monitor() != nullptr) {
     if (increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit)
-      NoteStabilityBehind(*at, increment);
+      onsets_.NoteBehind(*at, increment.point, current_);
     increment.stability = limit_.monitor()->record();
   }
   // As long as wanted unless this step had to be shortened.
   step_length_ = std::min(options_.step, at->rejected > 0 ? 1.5 * at->tried : 2.0 * step_length_);
-  const bool decides_behind = limit_.Note(
-      {increment.point, at->step.end, current_, NullDirections(*at), at->event.Kind() == EventKind::kContactEvent,
-       at->event.crossing.has_value(), facts.stable_ahead, departure_.ToleranceAt(increment.point)},
-      &increment.stability, &advance.end);
+  const bool decides_behind = limit_.Note({increment.point, at->step.end, current_, onsets_.NullDirections(*at),
+                                           at->event.Kind() == EventKind::kContactEvent, at->event.crossing.has_value(),
+                                           facts.stable_ahead, departure_.ToleranceAt(increment.point)},
+                                          &increment.stability, &advance.end);
   if (decides_behind) step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
   increment.solve.next_step = limit_.Leaves() ? 0.0 : step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;

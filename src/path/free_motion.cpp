@@ -30,7 +30,18 @@ void AddEquation(const LawDofs& dofs, const LawVector& gradient, int equation, T
     entries->emplace_back(dofs[k], equation, gradient[static_cast<Eigen::Index>(k)]);
 }
 
-// What resists a motion du, one column an equation: tangent . du, supports, contacts that carry.
+// Whether the limits of forces beyond which it is idle are not at zero.
+bool Bears(const Law& law, const Mode& mode, const PortReals& forces, double tolerance) {
+  for (const LimitRule& limit : law.In(mode).limits) {
+    if (!limit.OfForces() || !law.In(limit.next).idle) continue;
+    double value = 0.0;
+    for (std::size_t p = 0; p < forces.size(); ++p) value += limit.weights[p] * forces[p];
+    if (!(value > tolerance * limit.unit)) return false;
+  }
+  return true;
+}
+
+// What resists a motion du, one column an equation: tangent . du, supports, laws that bear.
 Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& point, double force) {
   Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
   model.structure.Tangent(point.u, &tangent);
@@ -42,13 +53,14 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
   auto equation = static_cast<int>(tangent.cols());
   for (const PrescribedDof& prescribed : model.structure.PrescribedDofs())
     entries.emplace_back(prescribed.dof, equation++, 1.0);
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const ContactPair& pair = *model.contacts[i];
-    if (!(NormalReaction(point, i) > force * pair.NormalForceUnit())) continue;
+  for (std::size_t i = 0; i < model.laws.size(); ++i) {
+    const Law& law = model.laws[i];
+    const StateRule& state = law.In(point.modes[i]);
+    if (state.idle || !Bears(law, point.modes[i], model.laws.Of(point.forces, i), force)) continue;
     PortsAt ports;
-    pair.Evaluate(point.u, point.s, point.modes[i].piece, {}, &ports);
-    AddEquation(ports.dofs, ports[kNormal].gradient, equation++, &entries);
-    if (pair.Frictional()) AddEquation(ports.dofs, ports[kTangent].gradient, equation++, &entries);
+    law.Evaluate(point.u, point.s, point.modes[i].piece, {}, &ports);
+    for (std::size_t p = 0; p < law.NumPorts(); ++p)
+      if (law.In(state.held).ports[p].Holds()) AddEquation(ports.dofs, ports[p].gradient, equation++, &entries);
   }
   Eigen::SparseMatrix<double> resistance(tangent.rows(), equation);
   resistance.setFromTriplets(entries.begin(), entries.end());

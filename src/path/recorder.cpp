@@ -115,7 +115,8 @@ void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPo
   increment_.load_factor = point.s * model.scaling.load_factor;
   increment_.setting = accepted.setting;
   increment_.kind = accepted.kind;
-  increment_.strain_energy = model.structure.Energy(point.u) * model.scaling.force * model.scaling.length;
+  increment_.strain_energy =
+      (model.structure.Energy(point.u) + model.laws.Energy(point)) * model.scaling.force * model.scaling.length;
   increment_.residuals = accepted.residuals;
   increment_.solve = accepted.solve;
   increment_.solve.time = time;

@@ -13,13 +13,13 @@
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/earlier_trace.h"
-#include "contact_path/path/free_motion.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/machine_setting.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
+#include "contact_path/path/trace_end.h"
 #include "contact_path/path/watched_quantities.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
@@ -67,11 +67,9 @@ class Tracer {
             {last() < 0 ? sentences::kNoSolutionAtStart : sentences::kNoSolution, error.what(), last()});
     }
     if (model_ != nullptr) NameInvertedElement(*model_, point_, &end_);
-    const Causes missed = EndedBeforeItsEnd() ? MissedEnd(request_, recorder_.increment().stage) : Causes();
-    const Causes choices = MissedChoices(request_, recorder_.increments(), events_);
-    for (const Causes& remarks :
-         {missed, WhatMovesFreely(), recorder_.Remarks(), remarks_, StiffParts(), choices, InsideObstacles()})
-      Append(remarks, &end_.causes);
+    Append(RemarksAtEnd({request_, index_, model_.get(), point_, end_.reason, recorder_, remarks_,
+                         largest_reaction_.of_trace, largest_load_, events_}),
+           &end_.causes);
     return {end_.reason, EndText(end_.causes), recorder_.increments(), IsReached(end_.reason, request_)};
   }
 
@@ -133,36 +131,6 @@ class Tracer {
     return false;
   }
   bool EndBy(EndReason reason, Cause cause) { return EndWith({reason, {std::move(cause)}}); }
-
-  bool EndedBeforeItsEnd() const {
-    return end_.reason == EndReason::kMaxIncrements || end_.reason == EndReason::kClosedPath;
-  }
-
-  // Nodes that nothing holds: where no branch leads on, and where the path wanders about without a load.
-  Causes WhatMovesFreely() const {
-    if (model_ == nullptr) return {};
-    const bool stuck = IsStuck(end_.reason);
-    const bool wanders = EndedBeforeItsEnd() && std::abs(point_.s) <= tolerances::kSamePoint * largest_load_;
-    if (!stuck && !wanders) return {};
-    const double force = ActiveSetTolerance::For(largest_reaction_.of_trace, point_.s).force;
-    const std::string text = stuck && recorder_.increments() <= 1 ? FreeMotionQuestion(*model_, point_, force)
-                                                                  : FreeMotionText(*model_, point_, force);
-    if (text.empty()) return {};
-    return {{wanders ? sentences::kFreeWithoutLoad : sentences::kFreeNodes, text}};
-  }
-
-  Causes InsideObstacles() const {
-    if (model_ == nullptr || end_.reason == EndReason::kMemoryLimit) return {};
-    return NodesInObstacles(request_.scene, *model_, point_);
-  }
-
-  // Parts that are too stiff for the path to be trusted, or to be found.
-  Causes StiffParts() const {
-    Causes stiff = IsNumerical(end_.reason) ? SlenderBeam(request_.scene, index_) : Causes();
-    Append(LockingSolids(request_.scene, index_), &stiff);
-    if (model_ != nullptr) Append(LightLoads(*model_), &stiff);
-    return stiff;
-  }
 
   // scene: of a stage.
   bool DrivesForward(const Scene& scene) const {
@@ -230,7 +198,9 @@ class Tracer {
     if (IsAt(target)) return EndStage(stage);
     const PathPoint before = model.FromIncrement(*resumption.before);
     may_snap_ = MaySnap(resumption.from->stability, request_.options.method == Method::kBranch);
-    if (const std::optional<Cause> escape = Escape(model, target, before)) return EndBy(EndReason::kPathEnd, *escape);
+    if (const std::optional<Cause> escape =
+            Escape({request_, model, point_, before, target, largest_reaction_.of_trace, largest_load_, may_snap_}))
+      return EndBy(EndReason::kPathEnd, *escape);
     std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
     if (!method->Resume({before, point_, resumption.from->solve}))
       return EndBy(EndReason::kNumericalFailure, {sentences::kResumeLost});
@@ -270,25 +240,6 @@ class Tracer {
   // otherwise: where the number of unstable directions is not known.
   static bool MaySnap(const StabilityRecord& stability, bool otherwise) {
     return stability.unstable_directions < 0 ? otherwise : stability.unstable_directions > 0;
-  }
-
-  // Why no further increment is of use, from `before` to the last one: no contact is left, and the load moves away from
-  // its target, or nothing holds the structure. Nothing: it may be; a stop criterion may yet be met.
-  std::optional<Cause> Escape(const Model& model, std::optional<double> target, const PathPoint& before) const {
-    const auto is_open = [](const Mode& mode) { return StateOf(mode) == ContactState::kOpen; };
-    const bool opened = largest_reaction_.of_trace > 0.0 &&
-                        std::all_of(point_.modes.begin(),
-                                    point_.modes.begin() + static_cast<std::ptrdiff_t>(model.contacts.size()), is_open);
-    if (!opened || !request_.options.stop.empty()) return std::nullopt;
-    // The load of a structure that snaps may come back.
-    const bool away = target && point_.s * *target < 0.0 && std::abs(point_.s) > std::abs(*target) &&
-                      std::abs(point_.s) > std::abs(before.s) && !may_snap_;
-    if (away) return Cause{sentences::kOpenBeyondTarget};
-    const double unloaded = tolerances::kSamePoint * largest_load_;
-    const bool drifts =
-        std::abs(before.s) <= unloaded && std::abs(point_.s) <= unloaded && IsShifted(model, before, point_);
-    if (!drifts || Approaches(model, before, point_)) return std::nullopt;
-    return Cause{sentences::kOpenAndDrifts};
   }
 
   bool HasAllIncrements() const {
@@ -338,7 +289,9 @@ class Tracer {
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
     stop_.Note(recorder_.increment());
     if (IsAt(target)) return true;
-    if (const std::optional<Cause> escape = Escape(model, target, before)) return EndBy(EndReason::kPathEnd, *escape);
+    if (const std::optional<Cause> escape =
+            Escape({request_, model, point_, before, target, largest_reaction_.of_trace, largest_load_, may_snap_}))
+      return EndBy(EndReason::kPathEnd, *escape);
     return std::nullopt;
   }
 

@@ -373,16 +373,18 @@ class Jumper {
     Landing landing;
     landing.point = last.point;
     landing.loads = course->work.loads;
-    landing.stored = structure_.Energy(last.point.u) - structure_.Energy(start_.u);
+    landing.stored = Energy(last.point) - Energy(start_);
     // Drag takes energy: what slides is found to take beyond the rest is the error of its integral, and small.
     const double left = landing.loads - landing.stored, taken = course->work.dissipation;
     if (taken - left >
         tolerances::kEnergyOfStep * (std::abs(landing.loads) + std::abs(landing.stored) + std::abs(taken)) +
-            tolerances::kEqual * (1.0 + structure_.Energy(start_.u)))
+            tolerances::kEqual * (1.0 + Energy(start_)))
       return;
     landing.dissipated = std::min(taken, std::max(0.0, left));
     course->landing = landing;
   }
+
+  double Energy(const PathPoint& point) const { return structure_.Energy(point.u) + laws_.Energy(point); }
 
   // Sign of the determinant with so much drag that nothing drives away from the point. A step by implicit Euler from
   // which the same drag drives the structure has the same sign; where it has the other one it is so long that growth is

@@ -82,7 +82,10 @@ void MotionStepSolver::NoteActing(const PathPoint& from, const Change& change, c
                                   Eigen::VectorXd* references, MotionStep* step) const {
   const std::size_t i = change.law;
   const Law& law = laws_[i];
-  if (!law.In(from.modes[i]).idle || law.In(change.to).idle || !law.In(system_.modes()[i]).idle) return;
+  const StateRule& acts = law.In(change.to);
+  // What gives way from rest makes no impact.
+  if (!law.In(from.modes[i]).idle || acts.idle || acts.ports[0].compliance != 0.0 || !law.In(system_.modes()[i]).idle)
+    return;
   const double s = x[system_.NumDofs()];
   const int piece = change.to.piece;
   const double before = std::max(0.0, law.Motion(0, from.u, from.s, piece, {})), after = law.Motion(0, x, s, piece, {});

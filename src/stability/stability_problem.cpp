@@ -104,6 +104,22 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
       entries.emplace_back(place, place, 1.0 + largest);
     }
   }
+  // What a port that gives way holds is stiffness.
+  stiffness.clear();
+  for (Eigen::Index reaction = nd; reaction < size; ++reaction) {
+    const double compliance = transposed.coeff(reaction + 1, reaction);
+    if (compliance == 0.0) continue;
+    entries.emplace_back(static_cast<int>(reaction), static_cast<int>(reaction), -compliance);
+    for (const auto& a : forces)
+      for (const auto& b : forces)
+        if (a.col() == reaction - nd && b.col() == reaction - nd)
+          stiffness.emplace_back(a.row(), b.row(), a.value() * b.value() / compliance);
+  }
+  if (!stiffness.empty()) {
+    Eigen::SparseMatrix<double> of_ports(nd, nd);
+    of_ports.setFromTriplets(stiffness.begin(), stiffness.end());
+    stiffness_ += of_ports;
+  }
   forces_.resize(nd, reactions);
   forces_.setFromTriplets(forces.begin(), forces.end());
   saddle_.resize(size, size);

@@ -53,6 +53,8 @@ class FixedModeSystem : public ArcEquations {
   Eigen::VectorXd Rounding(const Eigen::VectorXd& x) const override;
   // The largest entry of a residual; equations of equilibrium are measured in Structure::ResidualUnits().
   double Largest(const Eigen::VectorXd& residual) const;
+  // Strain energy of the structure and of the laws [force length].
+  double Energy(const Eigen::VectorXd& x) const;
   // Forces relative to the largest of load factor and forces, motions to the largest coordinate, each + 1.
   bool Hold(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const override;
   // The largest of Structure::ResidualUnits().
@@ -72,7 +74,7 @@ class FixedModeSystem : public ArcEquations {
   Eigen::MatrixXd FreeMotions(const Eigen::VectorXd& x, const Eigen::SparseMatrix<double>& transposed) override;
 
   // The system among those of other modes, for BorderedSolver; until the next set or pin. Null where the system is
-  // small, or has active limits or a fixed load factor, or where very many laws act, or one has dofs by piece.
+  // small, or has active limits or a fixed load factor, or where very many laws act, or one couples unknowns.
   const Frame* InFrame() override;
 
   // Limits of the laws that act, and those of idle ones that an increment of length `reach` may come to; near: the ends
@@ -171,7 +173,7 @@ class FixedModeSystem : public ArcEquations {
   Eigen::Index first_active_equation_ = 0;
   Eigen::Index num_unknowns_ = 0;
   Eigen::Index num_equations_ = 0;
-  bool curved_ = false, dofs_by_piece_ = false;  // some of the laws in the equations
+  bool curved_ = false, couples_ = false;  // some of the laws in the equations
   Eigen::SparseMatrix<double> tangent_;
   Eigen::SparseMatrix<double> transposed_;
   Frame frame_;

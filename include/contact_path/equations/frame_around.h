@@ -12,7 +12,7 @@
 
 namespace contact_path {
 
-// framed: laws that may act, whose dofs do not depend on the piece, ascending; tangent: its pattern counts. Unknowns:
+// framed: laws that may act, that couple nothing, ascending; tangent: its pattern counts. Unknowns:
 // u, the forces of the ports of each law of `framed`, reactions of the prescribed components, s. Equations:
 // equilibrium, the motions of these ports, prescribed components. Where a system stands in it is left open.
 Frame FrameAround(const Structure& structure, const Laws& laws, const std::vector<std::size_t>& framed,

@@ -88,8 +88,8 @@ class Law {
 
   // Of a known piece.
   virtual LawDofs Dofs(int /*piece*/) const { return traits_.dofs; }
-  // Whether dofs are those of the piece.
-  bool DofsByPiece() const { return traits_.dofs_by_piece; }
+  // Whether it couples unknowns that elements need not couple: then it has no place in a frame.
+  bool Couples() const { return traits_.couples; }
   // Whether what it holds gives way: its forces are not redundant beside those of another law.
   bool Compliant() const { return traits_.compliant; }
   // Whether Hessians can be other than zero.
@@ -130,6 +130,9 @@ class Law {
                         double ds, int piece_after) const;
   double TravelRate(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du,
                     double ds) const;
+
+  // Stored in the compliance of its ports [force length].
+  double Energy(const Mode& mode, const PortReals& forces) const;
 
   // References at a place from which an arc sets out.
   virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;
@@ -173,8 +176,8 @@ class Law {
   using Terms = std::bitset<kMostLawDofs + 1>;
   struct Traits {
     std::size_t num_ports = 1;
-    LawDofs dofs;  // of all pieces, unless by piece
-    bool dofs_by_piece = false, compliant = false, curved = false, holonomic = false;
+    LawDofs dofs;  // of all pieces, unless Dofs() is another function
+    bool couples = false, compliant = false, curved = false, holonomic = false;
     std::array<Terms, kMostPorts> moves{};
     double force_unit = 1.0;
     double largest_ratio = 0.0;

@@ -31,6 +31,7 @@ class Laws {
   }
   // By port, from the motions at the point.
   Eigen::VectorXd ReferencesAt(const PathPoint& point) const;
+  double Energy(const PathPoint& point) const;
   // Largest force of a port, in the force unit of its law.
   double LargestForce(const PathPoint& point) const;
 

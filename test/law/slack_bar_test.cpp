@@ -1,0 +1,197 @@
+// What solves for paths, branches, verdicts and jumps takes a bar that bears tension alone as it takes a contact.
+#include "support/slack_bar.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "contact_path/branch/branches.h"
+#include "contact_path/branch/event_functions.h"
+#include "contact_path/branch/mode_arc.h"
+#include "contact_path/branch/rate_complementarity.h"
+#include "contact_path/stability/jump.h"
+#include "contact_path/stability/stability_problem.h"
+#include "support/derivative_checker.h"
+#include "support/random.h"
+
+namespace contact_path::slack_bar_test {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kEA = 2.0, kRight = 0.9;  // rest length of the string on the right
+constexpr double kExact = 1e-12;
+const SlackBar::Place kNode = {{0, 1}, Vector2d::Zero()}, kLeftEnd = {{-1, -1}, {-1.0, 0.0}},
+                      kRightEnd = {{-1, -1}, {1.0, 0.0}};
+constexpr Mode kTaut = {SlackBar::kTaut, 0}, kSlack = {SlackBar::kSlack, 0};
+
+// A node at the origin on springs, between strings to (-1, 0), of the length 1, and to (1, 0), of the length 0.9: both
+// pull. A load s along x; at x = 0.1 the string on the right goes slack.
+class NodeOnTwoStrings : public testing::Test {
+ protected:
+  explicit NodeOnTwoStrings(double stiffness = 0.5)
+      : stiffness_(stiffness),
+        structure_(MakeScene(stiffness)),
+        left_(kLeftEnd, kNode, kEA, 1.0, 1.0),
+        right_(kNode, kRightEnd, kEA, kRight, 1.0) {
+    laws_.Add(&left_);
+    laws_.Add(&right_);
+  }
+  static Scene MakeScene(double stiffness) {
+    Scene scene;
+    scene.nodes = {{"p", 0.0, 0.0}};
+    scene.superelements = {{{"p"}, {stiffness, 0.0, 0.0, 1.0}}};
+    scene.loads = {{"p", 1.0, 0.0}};
+    return scene;
+  }
+  static double Left(double x) { return std::max(0.0, kEA * x); }
+  static double Right(double x) { return std::max(0.0, kEA * (1.0 - x - kRight) / kRight); }
+  PathPoint At(double x) const {
+    PathPoint point;
+    point.u = Vector2d(x, 0.0);
+    point.s = stiffness_ * x + Left(x) - Right(x);
+    point.forces = Vector2d(Left(x), Right(x));
+    point.modes = {x >= 0.0 ? kTaut : kSlack, x <= 1.0 - kRight ? kTaut : kSlack};
+    return point;
+  }
+  // From x along the path by `length` of x.
+  Step StepFrom(ModeArc* arc, const PathPoint& point, double length) const {
+    arc->SetModes(point);
+    CurvePoint start, end;
+    const VectorXd towards = Vector3d(length > 0.0 ? 1.0 : -1.0, 0.0, 0.0);
+    EXPECT_TRUE(arc->Derivatives(arc->system().Pack(point), towards, &start));
+    const VectorXd normal = start.first.head(3);
+    const VectorXd ahead = start.x + std::abs(length) / std::abs(start.first[0]) * start.first;
+    const Correction correction = arc->CorrectOnPlane(ahead, normal);
+    EXPECT_TRUE(correction.converged && arc->Derivatives(correction.x, normal, &end));
+    return MakeStep(start, end, 3);
+  }
+
+  const double stiffness_;
+  const Structure structure_;
+  const SlackBar left_, right_;
+  Laws laws_;
+};
+
+TEST_F(NodeOnTwoStrings, DerivativesMeetDifferences) {
+  Random random(1);
+  FixedModeSystem system(structure_, laws_);
+  for (const Modes& modes : {Modes{kTaut, kTaut}, Modes{kTaut, kSlack}, Modes{kSlack, kSlack}}) {
+    system.SetModes(modes);
+    EXPECT_EQ(system.NumUnknowns(), system.NumEquations() + 1);
+    VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 0.4);
+    const VectorXd dx = random.Vector(system.NumUnknowns(), -1.0, 1.0);
+    const auto residual = [&](const VectorXd& at) {
+      VectorXd value;
+      system.Residual(at, &value);
+      return value;
+    };
+    EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
+    const auto rate = [&](const VectorXd& h) {
+      return VectorXd(system.TransposedJacobian(x + h[0] * dx).transpose() * dx);
+    };
+    EXPECT_TRUE(IsJacobian(rate, VectorXd::Zero(1), system.SecondDerivative(x, dx)));
+    for (const Limit& limit : system.Limits()) {
+      const auto value = [&](const VectorXd& at) { return VectorXd::Constant(1, system.Value(limit, at)); };
+      EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
+    }
+  }
+}
+
+// The load is k x + EA x - EA (0.1 - x) / 0.9 until x = 0.1, and k x + EA x beyond; and back.
+TEST_F(NodeOnTwoStrings, GoesSlackAndComesBackTaut) {
+  for (const bool away : {true, false}) {
+    ModeArc arc(structure_, laws_);
+    const Step step = StepFrom(&arc, At(away ? 0.05 : 0.15), away ? 0.1 : -0.1);
+    const StepEvent event = FirstEvent(&arc, step);
+    ASSERT_EQ(event.Kind(), EventKind::kContactEvent) << away;
+    EXPECT_EQ(event.fails->law, 1);
+    const std::optional<CurvePoint> located = Locate(&arc, step, event);
+    ASSERT_TRUE(located);
+    EXPECT_NEAR(located->x[0], 0.1, kExact);
+    EXPECT_NEAR(located->x[2], (stiffness_ + kEA) * 0.1, kExact);
+    const PathPoint point = arc.system().Unpack(located->x);
+    Arrival arrival;
+    arrival.direction = located->first.head(3);
+    const BranchSet set = FindBranches(structure_, laws_, point, arrival, ActiveSetTolerance());
+    ASSERT_EQ(set.branches.size(), 1U);
+    EXPECT_EQ(set.branches[0].modes, (Modes{kTaut, away ? kSlack : kTaut}));
+    EXPECT_EQ(set.branches[0].dissipation_rate, 0.0);
+    const double slope = stiffness_ + kEA + (away ? 0.0 : kEA / kRight);
+    EXPECT_NEAR(set.branches[0].load_rate / set.branches[0].direction[0], slope, 1e-9);
+    PathPoint beyond = point;
+    beyond.modes = set.branches[0].modes;
+    const double x = away ? 0.2 : 0.02;
+    const PathPoint there = arc.system().Unpack(StepFrom(&arc, beyond, x - 0.1).end.x);
+    EXPECT_NEAR(there.s, At(there.u[0]).s, kExact);
+    EXPECT_NEAR(there.forces[1], Right(there.u[0]), kExact);
+    EXPECT_NEAR(laws_.Energy(there),
+                0.5 * Left(there.u[0]) * Left(there.u[0]) / kEA + 0.5 * kRight * std::pow(Right(there.u[0]), 2) / kEA,
+                kExact);
+  }
+}
+
+// The pair of a bar is its force and its slack, of which one is zero.
+TEST_F(NodeOnTwoStrings, RatesAreOneComplementarityProblem) {
+  PathPoint point = At(0.1);
+  std::vector<Modes> options;
+  for (std::size_t i = 0; i < laws_.size(); ++i) options.push_back(laws_.ModesAt(point, i, ActiveSetTolerance()));
+  EXPECT_EQ(options[0].size(), 1U);
+  EXPECT_EQ(options[1].size(), 2U);
+  const std::vector<int> weakly_active = {1};
+  const RateProblem rates(structure_, laws_, point, point.modes, weakly_active, Vector3d(1.0, 0.0, 1.0).normalized());
+  ASSERT_TRUE(rates.regular());
+  const RateComplementarity problem(laws_, rates, options, weakly_active);
+  EXPECT_TRUE(problem.exists() && problem.unique());
+  for (const double sense : {1.0, -1.0}) {
+    const std::vector<RateSolution> solutions = problem.Solve(sense);
+    ASSERT_EQ(solutions.size(), 1U);
+    EXPECT_EQ(solutions[0].states, (States{SlackBar::kTaut, sense > 0.0 ? SlackBar::kSlack : SlackBar::kTaut}));
+  }
+}
+
+// Springs that push away from the middle: strings that are taut hold the node, slack ones do not.
+class NodePushedAway : public NodeOnTwoStrings {
+ protected:
+  NodePushedAway() : NodeOnTwoStrings(-1.0) {}
+};
+
+TEST_F(NodePushedAway, IsStableWhereStringsHoldIt) {
+  StabilityProblem problem(structure_, laws_);
+  for (const bool taut : {true, false}) {
+    PathPoint point = At(0.15);
+    if (!taut) point.modes[0] = kSlack;
+    problem.Set(point, {});
+    const Stability found = problem.Under(INFINITY);
+    EXPECT_EQ(found.verdict, taut ? Verdict::kStable : Verdict::kUnstable);
+    EXPECT_EQ(found.directions, taut ? 0 : 1);
+  }
+}
+
+// Without a load and in the middle of slack strings it leaves, and the next string stops it: -x + EA (x - 0.2) / 1.2 =
+// 0 with EA = 2 where a string of the length 1.2 is taut.
+TEST_F(NodePushedAway, JumpsUntilAStringIsTaut) {
+  const SlackBar left(kLeftEnd, kNode, kEA, 1.2, 1.0), right(kNode, kRightEnd, kEA, 1.2, 1.0);
+  Laws laws;
+  laws.Add(&left);
+  laws.Add(&right);
+  PathPoint from = At(0.0);
+  from.s = 0.0;
+  from.forces.setZero();
+  from.modes = {kSlack, kSlack};
+  for (const double sign : {1.0, -1.0}) {
+    const JumpResult jump = Jump(structure_, laws, from, Vector2d(sign, 0.0), {}, true, nullptr);
+    ASSERT_TRUE(jump.landing) << sign;
+    const double x = sign * 0.2 * kEA / (kEA - 1.2);
+    EXPECT_NEAR(jump.landing->point.u[0], x, 1e-9);
+    EXPECT_EQ(jump.landing->point.modes, (sign > 0.0 ? Modes{kTaut, kSlack} : Modes{kSlack, kTaut}));
+    EXPECT_NEAR(jump.landing->stored, -0.5 * x * x + 0.5 * kEA / 1.2 * std::pow(std::abs(x) - 0.2, 2), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace contact_path::slack_bar_test
