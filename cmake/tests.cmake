@@ -162,7 +162,7 @@ contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_t
   invariance_test jump_paths_test turning_paths_test large_requests_test largest_reaction_test model_size_test model_test
   mpec_cases_test mpec_method_test mpec_random_paths_test own_surface_test parts_on_contacts_test path_summary_test
   polygon_disc_test preload_test program_test progress_estimate_test redistribution_test restored_states_test resume_test
-  return_detector_test samples_test singular_scenes_test sizes_test small_and_stiff_test solid_paths_test stop_test
+  return_detector_test samples_test singular_scenes_test sizes_test slack_bars_test small_and_stiff_test solid_paths_test stop_test
   surface_scenes_test total_law_test trace_test)
 contact_path_add_stage(study NAMES path_column_test study_outputs_test)
 contact_path_add_stage(verify LONG SHARDS 2 NAMES verify_end_test verify_events_test verify_path_test)

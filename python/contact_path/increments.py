@@ -12,6 +12,8 @@ from contact_path.scene import Scene
 KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation', 'sample', 'onset', 'jump')
 #: States of contacts, in the order of the constants of the message ContactState.
 STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
+#: States of bars that bear in one sense alone, in the order of the constants of the message Increment.
+BAR_STATES = ('taut', 'slack')
 #: Why a trace ended; docs/end_reasons.md explains them.
 END_REASONS = ('stop_criterion', 'max_increments', 'closed_path', 'at_limit', 'path_end', 'no_landing', 'step_too_small',
                'element_inverted', 'cancelled', 'no_such_branch', 'time_limit', 'memory_limit', 'not_determined', 'numerical_failure')
@@ -22,7 +24,7 @@ LIMITS = ('smooth_limit', 'corner_limit')
 EVENTS = ('corner_limit', 'contact_event', 'bifurcation', 'onset', 'jump')
 # Columns of the path as a whole, whose names begin as that of a field.
 WHOLE = ('energy_released',)
-# Columns of words and of whole numbers, besides state_CONTACT; all others have numbers.
+# Columns of words and of whole numbers, besides state_CONTACT and state_BAR; all others have numbers.
 WORDS = ('kind', 'stability', 'stability_controlled')
 INTEGERS = ('index', 'stage', 'unstable_directions', 'landing_robust')
 # Quantities of parts of the scene, as columns name them: a force and its moment on the structure; of a contact; of a section, of
@@ -133,7 +135,14 @@ class Increments:
     @property
     def contacts(self) -> List[str]:
         """Names NODE@OBSTACLE or NODE@SURFACE of the candidates, in the order of the scene."""
-        return [name[len('state_'):] for name in self.table if name.startswith('state_')]
+        return [name[len('gap_'):] for name in self.table if name.startswith('gap_')]
+
+    @property
+    def bars(self) -> List[str]:
+        """Names of the bars that bear in one sense alone, whose columns state_BAR are `taut` or `slack`, in the order of the
+        scene."""
+        contacts = set(self.contacts)
+        return [name[len('state_'):] for name in self.table if name.startswith('state_') and name[len('state_'):] not in contacts]
 
     @property
     def stages(self) -> List[str]:

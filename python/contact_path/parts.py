@@ -99,9 +99,10 @@ class Parts(Loading):
         self._add('nodes', locals())
 
     @named
-    def bar(self, nodes: Texts, *, EA: float, rest_length: float = 0.0, strain: str = '') -> None:
+    def bar(self, nodes: Texts, *, EA: float, rest_length: float = 0.0, strain: str = '', sense: str = '',
+            name: str = '') -> None:
         """A bar between two nodes: stiffness EA [force], rest_length [length], 0: the initial distance; strain: biot,
-        green_lagrange or logarithmic."""
+        green_lagrange or logarithmic; sense: tension or compression, of a bar that bears this alone; name: of the column of its state."""
         self._add('bars', locals())
 
     @named

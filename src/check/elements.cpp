@@ -50,7 +50,8 @@ class BarElement : public Element {
         second_(nodes.at(1)),
         EA_(bar.EA),
         rest_(bar.rest_length),
-        strain_(bar.strain) {
+        strain_(bar.strain),
+        sense_(bar.sense) {
     if (bar.rest_length == 0.0) rest_ = Length(NodePosition(reference, second_) - NodePosition(reference, first_));
   }
 
@@ -58,19 +59,26 @@ class BarElement : public Element {
 
   void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
     const BarLengths lengths = Measure(positions);
-    const Real strain = Strain(strain_, lengths);
+    const Real strain = StrainOf(lengths);
     *energy += EA_ * lengths.rest * strain * strain / 2.0L;
   }
 
   void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
     const BarLengths lengths = Measure(positions);
     // N = dW/dl = EA l0 e de/dl, along the bar: N / l times its span.
-    const Real per_length = EA_ * lengths.rest * Strain(strain_, lengths) * StrainRatePerLength(strain_, lengths);
+    const Real per_length = EA_ * lengths.rest * StrainOf(lengths) * StrainRatePerLength(strain_, lengths);
     AddTo(forces, first_, -per_length * lengths.span);
     AddTo(forces, second_, per_length * lengths.span);
   }
 
  private:
+  // 0 where the bar is slack.
+  Real StrainOf(const BarLengths& lengths) const {
+    const Real strain = Strain(strain_, lengths);
+    if (sense_ == BarSense::kTension) return std::max<Real>(strain, 0.0L);
+    return sense_ == BarSense::kCompression ? std::min<Real>(strain, 0.0L) : strain;
+  }
+
   BarLengths Measure(const std::vector<double>& positions) const {
     const Vector span = NodePosition(positions, second_) - NodePosition(positions, first_);
     return {Length(span), rest_, span};
@@ -79,6 +87,7 @@ class BarElement : public Element {
   std::size_t first_, second_;
   Real EA_, rest_;
   StrainMeasure strain_;
+  BarSense sense_;
 };
 
 // W = (x - X)' K (x - X) / 2.

@@ -36,7 +36,8 @@ Json Expanded(const TraceRequest& given) {
   for (std::size_t i = 0; i < scene.beams.size(); ++i)
     object["scene"]["beams"][i]["name"] = BeamName(scene.beams[i], i);
   const std::vector<bool> turns = NodesThatTurn(scene);
-  Json turning = Json::array(), supports = Json::array(), boundaries = Json::array(), contacts = Json::array();
+  Json turning = Json::array(), supports = Json::array(), boundaries = Json::array(), contacts = Json::array(),
+       bars = Json::array();
   for (std::size_t i = 0; i < turns.size(); ++i)
     if (turns[i]) turning.push_back(scene.nodes[i].name);
   for (const SupportedNode& support : SupportedNodes(scene))
@@ -45,6 +46,7 @@ Json Expanded(const TraceRequest& given) {
   for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
     boundaries.push_back({{"name", boundary.name}, {"is_surface", boundary.is_surface}});
   for (const ContactCandidate& contact : scene.contacts) contacts.push_back(contact.Name());
+  for (const std::size_t i : OneSidedBars(scene)) bars.push_back(BarName(scene.bars[i], i));
   const Scaling scales = ProgramScales(request);
   object["scales"] = {{"length", scales.length}, {"force", scales.force}};
   const ElementNames names(scene);
@@ -52,6 +54,7 @@ Json Expanded(const TraceRequest& given) {
                      {"supports", supports},
                      {"boundaries", boundaries},
                      {"contacts", contacts},
+                     {"bars", bars},
                      {"sections", ListOf(names.NumSections(), [&](std::size_t i) { return names.SectionName(i); })},
                      {"elements", ListOf(names.NumElements(), [&](std::size_t i) { return names.ElementName(i); })}};
   return object;

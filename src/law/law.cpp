@@ -1,9 +1,17 @@
 #include "contact_path/law/law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
+namespace {
+
+constexpr int kPowersApart = 20;  // 2^20 is about 1e6: nearly all scenes have the unit 1
+
+}  // namespace
 
 double Law::Motion(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const PortReals& reference) const {
   PortsAt at;
@@ -52,6 +60,14 @@ int Law::AllHeld() const {
   return static_cast<int>(std::find_if(states_.begin(), states_.end(), all) - states_.begin());
 }
 
+PortReals Law::CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const {
+  PortReals forces{};
+  for (std::size_t p = 0; p < NumPorts(); ++p)
+    if (const PortRule& port = In(mode).ports[p]; port.Holds() && port.compliance != 0.0)
+      forces[p] = -Motion(p, u, s, mode.piece, {}) / port.compliance;
+  return forces;
+}
+
 double Law::Energy(const Mode& mode, const PortReals& forces) const {
   double energy = 0.0;
   for (std::size_t p = 0; p < NumPorts(); ++p) energy += 0.5 * In(mode).ports[p].compliance * forces[p] * forces[p];
@@ -60,6 +76,14 @@ double Law::Energy(const Mode& mode, const PortReals& forces) const {
 
 void Law::AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const {
   for (const LimitRule& rule : In(mode).limits) limits->push_back({law, rule.id});
+}
+
+double ForceUnitAbove(double bound) {
+  const double rounding = tolerances::kStiffForce * bound;
+  if (rounding > 1.0 && std::isfinite(rounding))
+    return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(rounding))));
+  if (!(bound > 0.0) || !(bound < 1.0)) return 1.0;
+  return std::ldexp(1.0, kPowersApart * static_cast<int>(std::ceil(std::log2(bound) / kPowersApart)));
 }
 
 void Law::SetLaw(const Traits& traits, std::vector<StateRule> states) {

@@ -56,6 +56,9 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
     add_fields(&Increment::contacts, i, scene.contacts[i].Name(), AllFields);
+  const std::vector<std::size_t> bars = OneSidedBars(scene);
+  for (std::size_t k = 0; k < bars.size(); ++k)
+    add("state_" + BarName(scene.bars[bars[k]], bars[k]), [k](const Increment& of) { return ToString(of.bars[k]); });
   add_place(Place::kBehindContacts);
   if (!expanded.Get().program.empty()) add_place(Place::kOfProgram);
   const SceneIndex index(scene);

@@ -15,6 +15,7 @@
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/solid_parts.h"
 #include "contact_path/scene/surface.h"
@@ -143,6 +144,7 @@ Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vect
   Causes found;
   for (std::size_t i = 0; i < scene.bars.size(); ++i) {
     const std::vector<std::string>& ends = scene.bars[i].nodes;
+    if (scene.bars[i].sense == BarSense::kTension) continue;
     const std::size_t a = index.Node(ends[0]), b = index.Node(ends[1]);
     const double length = std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
     const double initial = std::hypot(scene.nodes[b].x - scene.nodes[a].x, scene.nodes[b].y - scene.nodes[a].y);
@@ -271,8 +273,12 @@ Cause SlidesOffCause(const Model& model, const Limit& limit) {
 }
 
 Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, double tolerance) {
-  return {SignOfRate(static_cast<ContactLimit>(limit.id)),
-          model.scene.contacts[static_cast<std::size_t>(limit.law)].Name(), rate, tolerance};
+  const auto i = static_cast<std::size_t>(limit.law);
+  if (i >= model.contacts.size()) {
+    const std::size_t bar = OneSidedBars(model.scene)[i - model.contacts.size()];
+    return {sentences::kBarRateSign, BarName(model.scene.bars[bar], bar), rate, tolerance};
+  }
+  return {SignOfRate(static_cast<ContactLimit>(limit.id)), model.scene.contacts[i].Name(), rate, tolerance};
 }
 
 Causes BehindBoundary(const Model& model, const PathPoint& point) {

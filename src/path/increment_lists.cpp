@@ -1,5 +1,7 @@
 #include "contact_path/path/increment_lists.h"
 
+#include "contact_path/scene/expand.h"
+
 namespace contact_path {
 
 LongLists LongLists::Of(const TraceRequest& request, const SceneIndex& index) {
@@ -26,7 +28,8 @@ IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& in
       rotations_(request.scene.beams.empty() ? 0 : nodes_),
       contacts_(request.scene.contacts.size()),
       supports_(SupportedNodes(request.scene).size()),
-      boundaries_(TouchedBoundaries(request.scene).size()) {
+      boundaries_(TouchedBoundaries(request.scene).size()),
+      bars_(OneSidedBars(request.scene).size()) {
   const LongLists lists = LongLists::Of(request, index);
   sections_ = lists.sections ? index.Elements().NumSections() : 0;
   stresses_ = lists.stresses ? index.Elements().NumElements() : 0;
@@ -35,7 +38,8 @@ IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& in
 }
 
 bool IncrementLists::Fit(const Increment& increment) const {
-  const bool forces = increment.supports.size() == supports_ && increment.boundaries.size() == boundaries_;
+  const bool forces = increment.supports.size() == supports_ && increment.boundaries.size() == boundaries_ &&
+                      increment.bars.size() == bars_;
   const InnerState& inner = increment.inner;
   const bool no_inner = inner.positions.empty() && inner.rotations.empty() && inner.contacts.empty();
   if (increment.positions.empty())

@@ -15,6 +15,12 @@ std::size_t PositionIndex(const DofMap::Component& position) {
   return static_cast<std::size_t>(kPositionComponents * position.node + position.component);
 }
 
+Laws AllLaws(const ContactPairs& contacts, const std::vector<std::unique_ptr<const SlackBar>>& bars) {
+  Laws laws = LawsOf(contacts);
+  for (const auto& bar : bars) laws.Add(bar.get());
+  return laws;
+}
+
 double NumFree(const Model& model, int node) {
   double free = 0.0;
   for (const int axis : {0, 1}) free += model.structure.Dof(node, axis) >= 0 ? 1.0 : 0.0;
@@ -36,7 +42,9 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       structure(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length)),
       contacts(BuildContacts(scaled, index, structure,
                              CountedFrom(origin, configuration_in).Over(scaling.length).slip_origins)),
-      laws(LawsOf(contacts)),
+      bars(BuildSlackBars(scaled, index, structure,
+                          CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
+      laws(AllLaws(contacts, bars)),
       reactions(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length), scaling),
       check(scene_in, configuration_in, scaling_in) {}
 
@@ -44,7 +52,10 @@ PathPoint Model::InitialPoint() const {
   PathPoint point;
   point.u = structure.Start();
   point.forces = Eigen::VectorXd::Zero(laws.NumPorts());
-  for (std::size_t i = 0; i < laws.size(); ++i) point.modes.push_back(laws[i].Initial(point.u, point.s));
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    point.modes.push_back(laws[i].Initial(point.u, point.s));
+    laws.Put(laws[i].CompliantForces(point.u, point.s, point.modes[i]), i, &point.forces);
+  }
   return point;
 }
 
@@ -127,6 +138,11 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
     const ContactRecord& contact = increment.contacts[i];
     SetReaction(i, contact.rn / scaling.force, contact.rt / scaling.force, &point);
     point.modes.push_back({NumberOf(contact.state), 0});
+  }
+  for (std::size_t k = 0; k < bars.size(); ++k) {
+    const std::size_t i = contacts.size() + k;
+    point.modes.push_back({static_cast<int>(increment.bars[k]), 0});
+    laws.Put(laws[i].CompliantForces(point.u, point.s, point.modes[i]), i, &point.forces);
   }
   NotePieces(&point);
   return point;

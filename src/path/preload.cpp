@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kMostIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
-// The scene whose load factor, from 0 to 1, brings the constant loads on. holding: internal force at the start, by dof,
-// in scene units.
+// The scene whose load factor, from 0 to 1, brings the constant loads on. holding: force of all parts at the start, by
+// dof, in scene units.
 Scene PreloadScene(const Model& model, const Eigen::VectorXd& holding) {
   Scene scene = model.scene;
   scene.loads.clear();
@@ -47,6 +47,14 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   preload.point = model.InitialPoint();
   Eigen::VectorXd holding(model.structure.NumDofs());
   model.structure.InternalForce(preload.point.u, holding);
+  for (std::size_t i = 0; i < model.laws.size(); ++i) {
+    const PortReals forces = model.laws.Of(preload.point.forces, i);
+    if (forces == PortReals{}) continue;
+    PortsAt at;
+    model.laws[i].Evaluate(preload.point.u, preload.point.s, preload.point.modes[i].piece, {}, &at);
+    for (std::size_t p = 0; p < model.laws[i].NumPorts(); ++p)
+      at.AddForce(at[p].gradient, -forces[p] * at[p].factor, &holding);
+  }
   // Stiff parts have forces that rounding of the positions makes.
   const bool stressed = (holding.array().abs() >
                          (tolerances::kMargin * model.structure.ForceRounding().array()).max(tolerances::kRounding))

@@ -58,7 +58,7 @@ ElementResponse::ElementResponse(const Scene& scaled, const SceneIndex& index, c
       to->push_back({std::move(placed.element), std::move(components)});
     }
   };
-  place(MakeElements(slender, index, configuration.reference), &sections_);
+  place(MakeElements(slender, index, configuration.reference, OneSided::kElements), &sections_);
   for (const Solid& solid : scaled.solids)
     place(MakeSolidElements(solid, scaled, index, configuration.reference), &elements_);
 }

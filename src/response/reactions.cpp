@@ -5,6 +5,7 @@
 
 #include "contact_path/contact/scene_contacts.h"
 #include "contact_path/law/ports.h"
+#include "contact_path/structure/scene_elements.h"
 
 namespace contact_path {
 namespace {
@@ -24,7 +25,8 @@ double Moment(const Eigen::Vector2d& arm, const Eigen::Vector2d& force) {
 ReactionProblem::ReactionProblem(const Scene& scaled, const SceneIndex& index, const Configuration& configuration,
                                  const Scaling& scaling)
     : scaling_(scaling),
-      released_(WithoutSupports(scaled), index, configuration),
+      released_(WithoutSupports(scaled), index, configuration,
+                MakeElements(scaled, index, configuration.reference, OneSided::kElements)),
       contacts_(BuildContacts(scaled, index, released_)),
       supports_(SupportedNodes(scaled)),
       boundaries_(TouchedBoundaries(scaled)),

@@ -35,6 +35,14 @@ struct Constants<ContactState> {
 };
 
 template <>
+struct Constants<BarState> {
+  static constexpr std::pair<BarState, std::uint8_t> kAll[] = {
+      {BarState::kTaut, msgs::Increment::TAUT},
+      {BarState::kSlack, msgs::Increment::SLACK},
+  };
+};
+
+template <>
 struct Constants<IncrementKind> {
   static constexpr std::pair<IncrementKind, std::uint8_t> kAll[] = {
       {IncrementKind::kStart, msgs::Increment::START},

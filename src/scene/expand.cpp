@@ -209,6 +209,17 @@ std::string BeamName(const Beam& beam, std::size_t place) {
   return beam.name.empty() ? "beam" + std::to_string(place + 1) : beam.name;
 }
 
+std::string BarName(const Bar& bar, std::size_t place) {
+  return bar.name.empty() ? "bar" + std::to_string(place + 1) : bar.name;
+}
+
+std::vector<std::size_t> OneSidedBars(const Scene& scene) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < scene.bars.size(); ++i)
+    if (scene.bars[i].sense != BarSense::kBoth) places.push_back(i);
+  return places;
+}
+
 int BeamSegments(const Beam& beam) { return beam.segments > 0 ? beam.segments : kSegments; }
 
 bool TurnsNode(const Beam& beam, std::size_t place) {

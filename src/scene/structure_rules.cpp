@@ -55,6 +55,9 @@ class StructureRules {
       is_first = false;
       for (std::size_t i = 0; i < elements.size(); ++i) CheckElement(list[i], elements[i]);
     });
+    std::unordered_set<std::string> earlier;  // names of bars, as columns have them
+    for (std::size_t i = 0; i < scene_.bars.size(); ++i)
+      checker_.CheckName(kScene.Key("bars")[i].Key("name"), BarName(scene_.bars[i], i), &earlier);
   }
 
  private:

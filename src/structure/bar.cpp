@@ -17,8 +17,13 @@ void Scatter(const Eigen::Matrix2d& block, Eigen::Ref<Eigen::MatrixXd> out) {
 
 }  // namespace
 
-BarElement::BarElement(double EA, double rest_length, StrainMeasure strain)
-    : EA_(EA), rest_length_(rest_length), strain_(strain) {}
+BarElement::BarElement(double EA, double rest_length, StrainMeasure strain, BarSense sense)
+    : EA_(EA), rest_length_(rest_length), strain_(strain), sense_(sense) {}
+
+bool BarElement::Slack(double length) const {
+  return sense_ == BarSense::kTension ? length < rest_length_
+                                      : sense_ == BarSense::kCompression && length > rest_length_;
+}
 
 const std::vector<LocalDof>& BarElement::Dofs() const {
   static const std::vector<LocalDof> dofs = PositionsOfNodes(2);
@@ -26,7 +31,8 @@ const std::vector<LocalDof>& BarElement::Dofs() const {
 }
 
 double BarElement::Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-  const double stretch = Span(x).norm() / rest_length_;
+  const double length = Span(x).norm(), stretch = length / rest_length_;
+  if (Slack(length)) return 0.0;
   double strain = 0.0;
   switch (strain_) {
     case StrainMeasure::kBiot: strain = stretch - 1.0; break;
@@ -39,6 +45,7 @@ double BarElement::Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const {
 BarElement::EnergyDerivatives BarElement::Derivatives(double q) const {
   const double l0 = rest_length_;
   const double l = std::sqrt(q);
+  if (Slack(l)) return {0.0, 0.0, 0.0};
   switch (strain_) {
     case StrainMeasure::kBiot: {
       const double second = EA_ / (4.0 * q * l);

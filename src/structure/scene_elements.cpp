@@ -66,7 +66,7 @@ void Place(const Bar& bar, std::vector<int> nodes, const std::vector<double>& re
   const Eigen::Vector4d ends = PositionsOf(nodes, reference);
   const double distance = std::hypot(ends[2] - ends[0], ends[3] - ends[1]);
   const double rest_length = bar.rest_length > 0.0 ? bar.rest_length : distance;
-  elements->push_back({std::make_unique<BarElement>(bar.EA, rest_length, bar.strain), std::move(nodes)});
+  elements->push_back({std::make_unique<BarElement>(bar.EA, rest_length, bar.strain, bar.sense), std::move(nodes)});
 }
 
 void Place(const Superelement& part, std::vector<int> nodes, const std::vector<double>& reference,
@@ -110,13 +110,15 @@ std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& sc
 }
 
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
-                                        const std::vector<double>& reference) {
+                                        const std::vector<double>& reference, OneSided bars) {
   std::vector<PlacedElement> elements;
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
     for (const auto& part : parts) {
       if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Solid>) {
         for (PlacedElement& own : MakeSolidElements(part, scene, index, reference)) elements.push_back(std::move(own));
       } else {
+        if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Bar>)
+          if (part.sense != BarSense::kBoth && bars == OneSided::kLaws) continue;
         std::vector<int> nodes;
         for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
         Place(part, std::move(nodes), reference, &elements);

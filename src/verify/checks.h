@@ -38,6 +38,8 @@ class PointChecks {
   // Forces of supports and boundaries, and what elements and contacts bear.
   void CheckForces(const Increment& increment);
   void CheckSupports(const Increment& at);
+  // Whether bars that bear in one sense alone are taut and slack as recorded.
+  void CheckBars(const Increment& at, double tolerance);
   // Gap and state of a contact. slip: what the law of friction is about, over L. Tolerances: scaled.
   void CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& state, double slip,
                     double tolerance, double tolerance_of_slip);

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/field.h"
 
 namespace contact_path {
@@ -87,6 +88,23 @@ void PointChecks::CheckState(const Increment& before, const Increment& at, bool 
     CheckContact(i, at.contacts[i], to, slip / stage_.scaling.length, tolerance, tolerance_of_slip);
   }
   if (at.solve.exact) CheckSoftContacts(at);
+  CheckBars(at, tolerance);
+}
+
+void PointChecks::CheckBars(const Increment& at, double tolerance) {
+  const std::vector<std::size_t> bars = OneSidedBars(stage_.scene);
+  for (std::size_t k = 0; k < bars.size(); ++k) {
+    const Bar& bar = stage_.scene.bars[bars[k]];
+    const auto length = [&](const std::vector<double>& positions) {
+      const std::size_t a = stage_.index.Node(bar.nodes[0]), b = stage_.index.Node(bar.nodes[1]);
+      return std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
+    };
+    const double rest = bar.rest_length > 0.0 ? bar.rest_length : length(stage_.configuration.reference);
+    const double longer = (length(at.positions) - rest) / stage_.scaling.length;
+    const bool taut = at.bars[k] == BarState::kTaut;
+    if ((bar.sense == BarSense::kTension) == taut ? longer < -tolerance : longer > tolerance)
+      findings_.Report("bar ", BarName(bar, bars[k]), " is recorded as ", ToString(at.bars[k]), ", but is not");
+  }
 }
 
 void PointChecks::CheckSupports(const Increment& at) {

@@ -29,7 +29,10 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
   WriteOut(&message.options.stability, "true");
   WriteOut(&message.options.at_limit, "follow");
   WriteOut(&message.options.branch_rule, "automatic");
-  for (msgs::Bar& bar : message.scene.bars) WriteOut(&bar.strain, "biot");
+  for (msgs::Bar& bar : message.scene.bars) {
+    WriteOut(&bar.strain, "biot");
+    WriteOut(&bar.sense, "both");
+  }
   for (msgs::Material& material : message.scene.materials) WriteOut(&material.model, "neo_hookean");
   for (msgs::Solid& solid : message.scene.solids) WriteOut(&solid.plane, "strain");
   for (msgs::Obstacle& obstacle : message.scene.obstacles) {

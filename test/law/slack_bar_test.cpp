@@ -1,5 +1,5 @@
 // What solves for paths, branches, verdicts and jumps takes a bar that bears tension alone as it takes a contact.
-#include "support/slack_bar.h"
+#include "contact_path/law/slack_bar.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include "contact_path/branch/rate_complementarity.h"
 #include "contact_path/stability/jump.h"
 #include "contact_path/stability/stability_problem.h"
+#include "contact_path/structure/bar.h"
 #include "support/derivative_checker.h"
 #include "support/random.h"
 
@@ -25,9 +26,13 @@ using Eigen::VectorXd;
 
 constexpr double kEA = 2.0, kRight = 0.9;  // rest length of the string on the right
 constexpr double kExact = 1e-12;
-const SlackBar::Place kNode = {{0, 1}, Vector2d::Zero()}, kLeftEnd = {{-1, -1}, {-1.0, 0.0}},
-                      kRightEnd = {{-1, -1}, {1.0, 0.0}};
-constexpr Mode kTaut = {SlackBar::kTaut, 0}, kSlack = {SlackBar::kSlack, 0};
+const SlackBar::End kNode = {{0, 1}, Vector2d::Zero()}, kLeftEnd = {{-1, -1}, {-1.0, 0.0}},
+                    kRightEnd = {{-1, -1}, {1.0, 0.0}};
+constexpr Mode kTaut = {static_cast<int>(BarState::kTaut), 0}, kSlack = {static_cast<int>(BarState::kSlack), 0};
+
+SlackBar String(const SlackBar::End& a, const SlackBar::End& b, double rest_length) {
+  return {{a, b}, kEA, rest_length, StrainMeasure::kBiot, BarSense::kTension};
+}
 
 // A node at the origin on springs, between strings to (-1, 0), of the length 1, and to (1, 0), of the length 0.9: both
 // pull. A load s along x; at x = 0.1 the string on the right goes slack.
@@ -36,8 +41,8 @@ class NodeOnTwoStrings : public testing::Test {
   explicit NodeOnTwoStrings(double stiffness = 0.5)
       : stiffness_(stiffness),
         structure_(MakeScene(stiffness)),
-        left_(kLeftEnd, kNode, kEA, 1.0, 1.0),
-        right_(kNode, kRightEnd, kEA, kRight, 1.0) {
+        left_(String(kLeftEnd, kNode, 1.0)),
+        right_(String(kNode, kRightEnd, kRight)) {
     laws_.Add(&left_);
     laws_.Add(&right_);
   }
@@ -102,6 +107,42 @@ TEST_F(NodeOnTwoStrings, DerivativesMeetDifferences) {
   }
 }
 
+// The force of a bar of each measure, with its tangent and its second derivative; against the element of a bar that
+// bears both.
+TEST(SlackBar, IsTheElementWhereItIsTaut) {
+  Random random(3);
+  for (const StrainMeasure strain : {StrainMeasure::kBiot, StrainMeasure::kGreenLagrange, StrainMeasure::kLogarithmic})
+    for (const BarSense sense : {BarSense::kTension, BarSense::kCompression}) {
+      const SlackBar law({SlackBar::End{{0, 1}, {}}, SlackBar::End{{2, 3}, {}}}, 1.7, 0.8, strain, sense);
+      const BarElement element(1.7, 0.8, strain);
+      const double length = sense == BarSense::kTension ? 1.1 : 0.6, angle = random.Number(0.0, 6.0);
+      VectorXd u(4), force(4), v = random.Vector(4, -1.0, 1.0);
+      u << 0.3, -0.2, 0.3 + length * std::cos(angle), -0.2 + length * std::sin(angle);
+      element.Force(u, force);
+      const PortReals forces = law.CompliantForces(u, 0.0, kTaut);
+      EXPECT_GT(forces[0], 0.0);
+      PortsAt at;
+      law.Evaluate(u, 0.0, 0, {}, &at);
+      EXPECT_LE((at[0].gradient.head(4) * forces[0] + force).norm(), 1e-15);
+      EXPECT_NEAR(law.Energy(kTaut, forces), element.Energy(u), 1e-15);
+      Eigen::MatrixXd tangent(4, 4), derivative(4, 4);
+      element.Tangent(u, tangent);
+      const Eigen::MatrixXd of_law = 1.7 / 0.8 * at[0].gradient.head(4) * at[0].gradient.head(4).transpose() -
+                                     forces[0] * at[0].hessian.topLeftCorner(4, 4);
+      EXPECT_LE((of_law - tangent).norm(), 1e-14);
+      LawVector along(5);
+      along << v, 0.0;
+      LawMatrix change;
+      law.ForceHessian(u, 0.0, 0, forces, along, &change);
+      const auto hessian_along = [&](const VectorXd& h) {
+        PortsAt moved;
+        law.Evaluate(u + h[0] * v, 0.0, 0, {}, &moved);
+        return VectorXd((forces[0] * moved[0].hessian).reshaped());
+      };
+      EXPECT_TRUE(IsJacobian(hessian_along, VectorXd::Zero(1), change.reshaped()));
+    }
+}
+
 // The load is k x + EA x - EA (0.1 - x) / 0.9 until x = 0.1, and k x + EA x beyond; and back.
 TEST_F(NodeOnTwoStrings, GoesSlackAndComesBackTaut) {
   for (const bool away : {true, false}) {
@@ -150,7 +191,7 @@ TEST_F(NodeOnTwoStrings, RatesAreOneComplementarityProblem) {
   for (const double sense : {1.0, -1.0}) {
     const std::vector<RateSolution> solutions = problem.Solve(sense);
     ASSERT_EQ(solutions.size(), 1U);
-    EXPECT_EQ(solutions[0].states, (States{SlackBar::kTaut, sense > 0.0 ? SlackBar::kSlack : SlackBar::kTaut}));
+    EXPECT_EQ(solutions[0].states, (States{kTaut.state, (sense > 0.0 ? kSlack : kTaut).state}));
   }
 }
 
@@ -175,7 +216,7 @@ TEST_F(NodePushedAway, IsStableWhereStringsHoldIt) {
 // Without a load and in the middle of slack strings it leaves, and the next string stops it: -x + EA (x - 0.2) / 1.2 =
 // 0 with EA = 2 where a string of the length 1.2 is taut.
 TEST_F(NodePushedAway, JumpsUntilAStringIsTaut) {
-  const SlackBar left(kLeftEnd, kNode, kEA, 1.2, 1.0), right(kNode, kRightEnd, kEA, 1.2, 1.0);
+  const SlackBar left = String(kLeftEnd, kNode, 1.2), right = String(kNode, kRightEnd, 1.2);
   Laws laws;
   laws.Add(&left);
   laws.Add(&right);

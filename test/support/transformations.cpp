@@ -257,6 +257,7 @@ TracedPath UndoReversal(TracedPath path) {
     ReverseNodes(nodes, 2, &increment.positions);
     if (!increment.rotations.empty()) ReverseNodes(nodes, 1, &increment.rotations);
     std::reverse(increment.contacts.begin(), increment.contacts.end());
+    std::reverse(increment.bars.begin(), increment.bars.end());
   }
   return path;
 }

@@ -134,11 +134,6 @@ using ContactPairs = std::vector<std::unique_ptr<const ContactPair>>;
 
 Laws LawsOf(const ContactPairs& contacts);
 
-// bound: of the forces at play across the surface (Structure::ForceBounds()). The smallest unit that is no less than
-// it, and at most 1; more only where rounding makes reactions uncertain, as Structure::ResidualUnits() tells of forces.
-// A power of 2, so that scaling by it is exact.
-double ForceUnitAbove(double bound);
-
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_CONTACT_CONTACT_PAIR_H_

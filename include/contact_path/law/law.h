@@ -131,6 +131,8 @@ class Law {
   double TravelRate(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du,
                     double ds) const;
 
+  // Those of ports that are held and give way; the others are 0.
+  PortReals CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const;
   // Stored in the compliance of its ports [force length].
   double Energy(const Mode& mode, const PortReals& forces) const;
 
@@ -191,6 +193,11 @@ class Law {
   Traits traits_;
   std::vector<StateRule> states_;
 };
+
+// bound: of the forces at play in a law (Structure::ForceBounds()). The smallest unit that is no less than it, and at
+// most 1; more only where rounding makes forces uncertain, as Structure::ResidualUnits() tells of them. A power of 2,
+// so that scaling by it is exact.
+double ForceUnitAbove(double bound);
 
 }  // namespace contact_path
 

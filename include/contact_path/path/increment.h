@@ -13,6 +13,7 @@
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_state.h"
+#include "contact_path/law/slack_bar.h"
 #include "contact_path/response/contact_pressure.h"
 #include "contact_path/response/element_response.h"
 #include "contact_path/response/resultant.h"
@@ -190,6 +191,7 @@ struct Increment {
   EventRecord event;
   StabilityRecord stability;
   JumpRecord jump;
+  std::vector<BarState> bars;  // of OneSidedBars() of the scene, on the arc of the path that ends here
 };
 
 // All fields except positions, rotations, contacts, residuals, stability and jump: a message has them in another form,
@@ -202,7 +204,7 @@ constexpr auto Fields(Of<Increment>) {
                     Member("external_work", &P::external_work), Member("supports", &P::supports),
                     Member("boundaries", &P::boundaries), Member("sections", &P::sections),
                     Member("stresses", &P::stresses), Member("pressures", &P::pressures), Member("widths", &P::widths),
-                    Member("inner", &P::inner), Member("event", &P::event));
+                    Member("inner", &P::inner), Member("event", &P::event), Member("bars", &P::bars));
 }
 
 // What check/ looks at of an increment that has its state.

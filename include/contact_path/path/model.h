@@ -7,7 +7,8 @@
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/law/path_point.h"
+#include "contact_path/law/laws.h"
+#include "contact_path/law/slack_bar.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/response/contact_pressure.h"
 #include "contact_path/response/element_response.h"
@@ -68,9 +69,10 @@ struct Model {
   const Scaling scaling;
   const Origin origin;  // of the coordinates of all scaled quantities
   const Scene scaled;
-  const Structure structure;    // of the scaled scene
-  const ContactPairs contacts;  // of the scaled scene
-  const Laws laws;              // the contacts first
+  const Structure structure;                                // of the scaled scene
+  const ContactPairs contacts;                              // of the scaled scene
+  const std::vector<std::unique_ptr<const SlackBar>> bars;  // that bear in one sense alone, of the scaled scene
+  const Laws laws;                                          // the contacts, then these bars
   const ReactionProblem reactions;
   const ResidualCheck check;  // of the scene
 

@@ -105,6 +105,8 @@ inline constexpr Sentence kSlipRateSign = "the sign of the rate of the slip of c
 inline constexpr Sentence kPatchRateSign =
     "the sign of the rate towards the next piece of the surface of contact <name> <unknown>";
 
+inline constexpr Sentence kBarRateSign = "the sign of the rate with which bar <name> goes slack or taut <unknown>";
+
 // What explains an end.
 inline constexpr Sentence kCollapsedBar = "bar <name> has shrunk to <value> of its initial length";
 inline constexpr Sentence kInvertedElement =

@@ -13,6 +13,10 @@ namespace contact_path {
 
 // The name of a beam, given or by its place in the list, from 0.
 std::string BeamName(const Beam& beam, std::size_t place);
+std::string BarName(const Bar& bar, std::size_t place);
+
+// Places in the list of the bars that bear in one sense alone.
+std::vector<std::size_t> OneSidedBars(const Scene& scene);
 
 // The number of its segments, given or by default.
 int BeamSegments(const Beam& beam);

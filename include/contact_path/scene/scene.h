@@ -39,6 +39,16 @@ struct Words<StrainMeasure> {
       {"logarithmic", StrainMeasure::kLogarithmic}};
 };
 
+// What a bar bears.
+enum class BarSense { kBoth, kTension, kCompression };
+
+template <>
+struct Words<BarSense> {
+  static constexpr BarSense kDefault = BarSense::kBoth;
+  static constexpr std::pair<std::string_view, BarSense> kAll[] = {
+      {"both", BarSense::kBoth}, {"tension", BarSense::kTension}, {"compression", BarSense::kCompression}};
+};
+
 // The admissible side is on the left of a curve that is walked from its first point to its last one.
 enum class ObstacleShape {
   kHalfPlane,
@@ -72,12 +82,14 @@ constexpr auto Fields(Of<Node>) {
                     Member("fixed_y", &P::fixed_y), Member("fixed_rotation", &P::fixed_rotation));
 }
 
-// Straight bar with energy EA l0 e^2 / 2, e by `strain`.
+// Straight bar with energy EA l0 e^2 / 2, e by `strain`; without energy where it is slack.
 struct Bar {
   std::vector<std::string> nodes;  // two names
   double EA = 0.0;                 // axial stiffness [force], > 0
   double rest_length = 0.0;        // [length]; 0 = distance of the nodes at the start
   StrainMeasure strain = StrainMeasure::kBiot;
+  BarSense sense = BarSense::kBoth;
+  std::string name = {};  // of the column of its state; empty = "bar<place in the list, from 1>"
 };
 
 template <typename P>
@@ -85,7 +97,7 @@ constexpr auto Fields(Of<Bar>) {
   return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
                     Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
                     Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive),
-                    Member("strain", &P::strain));
+                    Member("strain", &P::strain), Member("sense", &P::sense), Member("name", &P::name));
 }
 
 // Linear elastic part: force = K (x - X), both ordered x0, y0, x1, y1, ... over `nodes`.

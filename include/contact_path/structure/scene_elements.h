@@ -16,9 +16,12 @@ struct PlacedElement {
   std::vector<int> nodes;  // of the scene, for the nodes 0, 1, ... of the element
 };
 
+// Bars that bear in one sense alone: elements, for what elements bear at a point, or none, since they are laws.
+enum class OneSided { kElements, kLaws };
+
 // In the order of the scene. `scene` must be sound, index its own. reference: x0, y0, x1, ... (scene/configuration.h).
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
-                                        const std::vector<double>& reference);
+                                        const std::vector<double>& reference, OneSided bars = OneSided::kLaws);
 
 // Of one solid of the scene, in the order of its nodes.
 std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,

@@ -5,7 +5,7 @@ from typing import Any, Dict, Mapping, Sequence
 
 import numpy as np
 
-from contact_path.increments import KINDS, STATES
+from contact_path.increments import BAR_STATES, KINDS, STATES
 from contact_path.path import Path
 from contact_path.scene import Scene
 from contact_path.structure.columns import list_columns, matrix, parts_of
@@ -56,6 +56,8 @@ def columns_of(traced: Mapping[str, Any], increments: Sequence[Any], options: Ma
         for field in 'gap', 'rn', 'rt':
             table['%s_%s' % (field, contact)] = parts[field][:, i]
         table['state_' + contact] = states[:, i]
+    for i, bar in enumerate(traced['names'].get('bars', ())):
+        table['state_' + bar] = np.array([BAR_STATES[message.bars[i]] for message in increments])
     for field in ('dissipation', 'strain_energy', 'external_work', 'equilibrium_residual', 'complementarity_residual',
                   'solve_time'):
         table[field] = column(field)

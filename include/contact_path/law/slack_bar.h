@@ -1,0 +1,78 @@
+// A bar that bears in one sense alone, as a law: taut or slack.
+#ifndef CONTACT_PATH_LAW_SLACK_BAR_H_
+#define CONTACT_PATH_LAW_SLACK_BAR_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "contact_path/law/law.h"
+#include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// The numbers are those of Mode::state.
+enum class BarState { kTaut, kSlack };
+
+// "taut", "slack".
+std::string_view ToString(BarState state);
+
+// With the strain e of the length between two places (scene.h, StrainMeasure) and sigma = 1 of a bar that bears
+// tension, -1 of one that bears compression, the port has the motion g = -sigma l0 e [length], and the force r >= 0
+// along it:
+//   taut:   g + (l0 / EA) r = 0, r >= 0, so that r = sigma EA e, the force of a bar by its energy EA l0 e^2 / 2
+//   slack:  r = 0, g >= 0
+class SlackBar : public Law {
+ public:
+  struct End {
+    std::array<int, 2> dofs = {-1, -1};              // of x and y; -1: held
+    Eigen::Vector2d held = Eigen::Vector2d::Zero();  // positions of what is held [length]
+  };
+
+  // EA > 0 [force], rest_length > 0 [length]; sense: not kBoth.
+  SlackBar(const std::array<End, 2>& ends, double EA, double rest_length, StrainMeasure strain, BarSense sense);
+
+  void Evaluate(const Eigen::VectorXd& u, double s, int piece, const PortReals& reference,
+                PortsAt* ports) const override;
+  void ForceHessian(const Eigen::VectorXd& u, double s, int piece, const PortReals& forces, const LawVector& weights,
+                    LawMatrix* hessian) const override;
+  PortReals ReferenceAt(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/) const override { return {}; }
+  double Reach(const Eigen::VectorXd& u, double s) const override { return Motion(0, u, s, 0, {}); }
+  Modes ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
+                const ActiveSetTolerance& tolerance) const override;
+  Mode Initial(const Eigen::VectorXd& u, double s) const override;
+  std::vector<Ray> Rays(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/,
+                        const ActiveSetTolerance& /*tolerance*/) const override {
+    return {{{1.0}, {1.0}}};
+  }
+
+ private:
+  // By the square of the length.
+  struct Strain {
+    double value, first, second, third;
+  };
+  Strain StrainAt(double q) const;
+  Eigen::Vector2d Span(const Eigen::VectorXd& u) const;
+
+  // The share of each of (dofs, s) in the span.
+  using Columns = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostLawDofs + 1>;
+
+  std::array<End, 2> ends_;
+  Columns columns_;
+  double rest_length_, compliance_, sense_;
+  StrainMeasure strain_;
+};
+
+// Of the bars of the scene that bear in one sense alone, in their order. `scene` must be sound, `structure` built from
+// it. reference: x0, y0, x1, ... of the shape without stress (scene/configuration.h).
+std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, const SceneIndex& index,
+                                                            const Structure& structure,
+                                                            const std::vector<double>& reference);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_LAW_SLACK_BAR_H_

@@ -1,0 +1,169 @@
+// Bars that bear in one sense alone, as scenes have them: taut and slack in closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/trace.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path::slack_bars_test {
+namespace {
+
+constexpr double kExact = 1e-11;
+
+void ExpectProved(const TracedPath& path) {
+  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+}
+
+std::vector<const Increment*> ContactEventsOf(const TracedPath& path) {
+  std::vector<const Increment*> events;
+  for (const Increment& increment : path.increments)
+    if (increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit)
+      events.push_back(&increment);
+  return events;
+}
+
+// A node at the origin on springs, between strings to (-1, 0), of the length 1, and to (1, 0), of the length 0.9.
+TraceRequest TwoStrings(double EA, double stiffness) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "two_strings";
+  scene.nodes = {{"a", -1.0, 0.0, true, true}, {"b", 1.0, 0.0, true, true}, {"p", 0.0, 0.0, false, false}};
+  scene.bars = {{{"a", "p"}, EA, 0.0, StrainMeasure::kBiot, BarSense::kTension, "left"},
+                {{"p", "b"}, EA, 0.9, StrainMeasure::kBiot, BarSense::kTension, "right"}};
+  scene.superelements = {{{"p"}, {stiffness, 0.0, 0.0, stiffness}}};
+  scene.loads = {{"p", EA + stiffness, 0.0, false}};
+  request.options.stop = {{"p.x", ">", 0.3}};
+  return request;
+}
+
+// The load is (EA + k) s = k x + EA x - EA (0.1 - x) / 0.9 until the string on the right is slack at x = 0.1, and k x +
+// EA x beyond; whatever the stiffness of the strings is to that of the springs.
+TEST(SlackBars, AStringThatGoesSlackPullsNoMore) {
+  for (const double ratio : {1e-6, 1e-3, 0.5, 1.0, 10.0}) {
+    SCOPED_TRACE(ratio);
+    const double EA = 2.0, k = ratio * EA;
+    const TracedPath path = TraceIncrements(TwoStrings(EA, k));
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double x = increment.positions[4], right = std::max(0.0, (0.1 - x) / 0.9);
+      EXPECT_NEAR(increment.load_factor, x - right / (1.0 + ratio), kExact);
+      EXPECT_NEAR(increment.strain_energy, 0.5 * EA * (ratio * x * x + x * x + 0.9 * right * right),
+                  kExact * EA * (1.0 + ratio));
+      EXPECT_EQ(increment.bars[0], BarState::kTaut);
+      EXPECT_EQ(increment.bars[1], increment.load_factor <= 0.1 + kExact ? BarState::kTaut : BarState::kSlack);
+    }
+    const std::vector<const Increment*> events = ContactEventsOf(path);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_NEAR(events[0]->positions[4], 0.1, kExact);
+    ExpectProved(path);
+  }
+}
+
+TEST(SlackBars, AreTheSameInOtherWords) {
+  const TraceRequest request = TwoStrings(2.0, 1.0);
+  const TracedPath path = TraceIncrements(request);
+  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, 1e-10);
+  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(request))), path, 1e-10);
+}
+
+// A prop below a node bears compression alone: pulled up, the node leaves it, and pressed down it stands on it.
+TEST(SlackBars, APropBearsNoPull) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "prop";
+  scene.nodes = {{"foot", 0.0, -1.0, true, true}, {"p", 0.0, 0.0, true, false}};
+  scene.bars = {{{"foot", "p"}, 3.0, 0.0, StrainMeasure::kGreenLagrange, BarSense::kCompression, ""}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+  Stage up, down;
+  up.name = "up";
+  up.loads = {{"p", 0.0, 0.5, false}};
+  up.target = 1.0;
+  down.name = "down";
+  down.loads = {{"p", 0.0, -1.0, false}};
+  down.target = 1.0;
+  request.program = {up, down};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Increment& increment : path.increments) {
+    const double y = increment.positions[3], strain = 0.5 * ((1.0 + y) * (1.0 + y) - 1.0);
+    const double load = increment.stage == 1 ? 0.5 * increment.load_factor : 0.5 - increment.load_factor;
+    EXPECT_NEAR(load, y + 3.0 * std::min(0.0, strain) * (1.0 + y), kExact);
+  }
+  EXPECT_EQ(path.increments.back().bars[0], BarState::kTaut);
+  ExpectProved(path);
+}
+
+// A shallow truss of two bars snaps through, EA = 1, rise 0.5 over the half span 1, until a rope above its apex, of the
+// length 1.3, is taut at y = -0.7; without the rope it would go on.
+TEST(SlackBars, ARopeStopsASnap) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "rope_above";
+  scene.nodes = {{"left", -1.0, 0.0, true, true},
+                 {"right", 1.0, 0.0, true, true},
+                 {"apex", 0.0, 0.5, false, false},
+                 {"hook", 0.0, 0.6, true, true}};
+  scene.bars = {{{"left", "apex"}, 1.0},
+                {{"apex", "right"}, 1.0},
+                {{"hook", "apex"}, 10.0, 1.3, StrainMeasure::kBiot, BarSense::kTension, "rope"}};
+  scene.loads = {{"apex", 0.0, -1.0, false}};
+  request.options.stop = {{"apex.y", "<", -0.72}};
+  const double l0 = std::hypot(1.0, 0.5);
+  for (const AtLimit at_limit : {AtLimit::kFollow, AtLimit::kJump}) {
+    request.options.at_limit = at_limit;
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double y = increment.positions[5], l = std::hypot(1.0, y), rope = std::max(0.0, -0.7 - y) / 1.3;
+      EXPECT_NEAR(increment.load_factor, -2.0 * (l / l0 - 1.0) * y / l + 10.0 * rope, kExact);
+      if (std::abs(y + 0.7) > 1e-9) {
+        EXPECT_EQ(increment.bars[0], y < -0.7 ? BarState::kTaut : BarState::kSlack) << y;
+      }
+    }
+    ExpectProved(path);
+  }
+}
+
+TEST(SlackBars, GoOnFromAnIncrementAsIfNothingHadBeen) {
+  const TraceRequest request = TwoStrings(2.0, 1.0);
+  const TracedPath path = TraceIncrements(request);
+  const std::vector<Increment> begun(path.increments.begin(), path.increments.begin() + 6);
+  std::vector<Increment> all;
+  TraceControl control;
+  control.on_increment = [&](const Increment& increment) { all.push_back(increment); };
+  ResumeTrace(request, begun, control);
+  ASSERT_EQ(all.size(), path.increments.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].positions, path.increments[i].positions) << i;
+    EXPECT_EQ(all[i].bars, path.increments[i].bars) << i;
+  }
+}
+
+TEST(SlackBars, AreRefusedByNameWhereTheyCannotBe) {
+  TraceRequest request = TwoStrings(2.0, 1.0);
+  request.options.method = Method::kMpec;
+  const auto lines = [](const TraceRequest& of) {
+    std::string text;
+    try {
+      Trace(of, {});
+    } catch (const std::invalid_argument& error) {
+      text = error.what();
+    }
+    return text;
+  };
+  EXPECT_NE(lines(request).find("options.method = mpec: must be branch in a scene with bars that bear in one sense"),
+            std::string::npos);
+  request = TwoStrings(2.0, 1.0);
+  request.scene.bars[1].name = "left";
+  EXPECT_NE(lines(request).find("scene.bars[1].name = left"), std::string::npos) << lines(request);
+}
+
+}  // namespace
+}  // namespace contact_path::slack_bars_test
