@@ -201,6 +201,16 @@ Eigen::VectorXd FixedModeSystem::Pack(const PathPoint& point) const {
   for (std::size_t port = 0; port < unknown_.size(); ++port)
     if (unknown_[port] >= 0) x[unknown_[port]] = point.forces[static_cast<Eigen::Index>(port)];
   x.tail(num_unknowns_ - first_support_) = structure_.SupportReactions(point.u, point.s);
+  if (first_support_ == num_unknowns_) return x;
+  // Laws may pull at what moves as it is told.
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(NumDofs());
+  for (const std::size_t i : acting_) {
+    const PortsAt at = Evaluate(i, x);
+    const PortReals forces = ForcesOf(i, x);
+    for (std::size_t p = 0; p < laws_[i].NumPorts(); ++p) at.AddForce(at[p].gradient, forces[p] * at[p].factor, &pull);
+  }
+  Eigen::Index k = first_support_;
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) x[k++] -= pull[prescribed.dof];
   return x;
 }
 

@@ -204,6 +204,8 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
   if (modes.cols() == 0) return modes;
   // A rotation of nodes in one place without rotations of their own is none.
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(modes);
+  // The rounding of one is none, either: combinations have the length 1.
+  if (qr.maxPivot() <= tolerances::kDependentColumn) return Eigen::MatrixXd(unknowns, 0);
   qr.setThreshold(tolerances::kDependentColumn);
   return qr.householderQ() * Eigen::MatrixXd::Identity(unknowns, qr.rank());
 }

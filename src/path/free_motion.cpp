@@ -59,6 +59,11 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
     if (state.idle || !Bears(law, point.modes[i], model.laws.Of(point.forces, i), force)) continue;
     PortsAt ports;
     law.Evaluate(point.u, point.s, point.modes[i].piece, {}, &ports);
+    const LawMatrix change = ports.ForceChange(model.laws.Of(point.forces, i));
+    for (std::size_t a = 0; law.Curved() && a < ports.dofs.size(); ++a)
+      for (std::size_t b = 0; b < ports.dofs.size(); ++b)
+        entries.emplace_back(ports.dofs[b], ports.dofs[a],
+                             -change(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)));
     for (std::size_t p = 0; p < law.NumPorts(); ++p)
       if (law.In(state.held).ports[p].Holds()) AddEquation(ports.dofs, ports[p].gradient, equation++, &entries);
   }

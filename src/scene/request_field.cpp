@@ -112,7 +112,7 @@ class Walk {
     NearestName nearest(word);
     if constexpr (HasName<T>::value) {
       for (std::size_t i = 0; i < list.size(); ++i) {
-        if (list[i].name == word) return i;
+        if (!word.empty() && list[i].name == word) return i;
         nearest.Offer(list[i].name);
       }
     }

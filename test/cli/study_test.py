@@ -410,7 +410,7 @@ class BadInput(StudyTest):
     def test_paths_of_fields(self):
         place = r'^.*study\.yaml:4: parameters\[0\]\.path = '
         self.expect(place + r'obstacles\.flor\.friction: must name an element of obstacles, .* did you mean floor\?', 'floor', 'flor')
-        self.expect(place + r'bars\.2\.EA: must name an element of bars, by its place from 0 to 1', 'obstacles.floor.friction', 'bars.2.EA')
+        self.expect(place + r'bars\.2\.EA: must name an element of bars, by its name or its place from 0 to 1', 'obstacles.floor.friction', 'bars.2.EA')
         self.expect(r'study\.yaml:5: parameters\[1\]\.path = obstacles\.0\.friction: must be another field than that of parameters\[0\]',
                     'nodes.apex.y', 'obstacles.0.friction')
 

@@ -143,6 +143,34 @@ TEST(SlackBar, IsTheElementWhereItIsTaut) {
     }
 }
 
+// Nodes that nothing but strings holds, at two ends: all terms of the equations come from laws.
+TEST(SlackBar, ChainOfStringsMeetsDifferences) {
+  Scene scene;
+  scene.nodes = {{"p", -0.3, 0.1}, {"q", 0.4, -0.1}};
+  scene.loads = {{"q", 1.0, 0.3}};
+  scene.bars = {{{"p", "q"}, kEA, 0.0, StrainMeasure::kBiot, BarSense::kTension, ""}};
+  const Structure structure(scene);
+  const SlackBar::End p = {{0, 1}, {}}, q = {{2, 3}, {}};
+  const SlackBar left = String(kLeftEnd, p, 0.6), middle = String(q, p, 0.6), right = String(q, kRightEnd, 0.5);
+  Laws laws;
+  for (const SlackBar* bar : {&left, &middle, &right}) laws.Add(bar);
+  FixedModeSystem system(structure, laws);
+  system.SetModes({kTaut, kTaut, kTaut});
+  Random random(5);
+  const VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 0.4) + VectorXd::Unit(system.NumUnknowns(), 2),
+                 dx = random.Vector(system.NumUnknowns(), -1.0, 1.0);
+  const auto residual = [&](const VectorXd& at) {
+    VectorXd value;
+    system.Residual(at, &value);
+    return value;
+  };
+  EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
+  const auto rate = [&](const VectorXd& h) {
+    return VectorXd(system.TransposedJacobian(x + h[0] * dx).transpose() * dx);
+  };
+  EXPECT_TRUE(IsJacobian(rate, VectorXd::Zero(1), system.SecondDerivative(x, dx)));
+}
+
 // The load is k x + EA x - EA (0.1 - x) / 0.9 until x = 0.1, and k x + EA x beyond; and back.
 TEST_F(NodeOnTwoStrings, GoesSlackAndComesBackTaut) {
   for (const bool away : {true, false}) {

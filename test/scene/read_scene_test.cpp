@@ -460,7 +460,7 @@ TEST(ReadSceneTest, NamesTheKeyOrWordThatWasMeant) {
       {14, "    restlength: 7.0",
        "file.yaml:14: scene.bars[0].restlength = 7.0: unknown key (did you mean rest_length?), must be one of: nodes, "
        "EA, "
-       "rest_length, strain"},
+       "rest_length, strain, sense, name"},
       {45, "  Step: 1.0",
        "file.yaml:45: options.Step = 1.0: unknown key (did you mean step?), must be one of: method, accuracy, "
        "direction, "

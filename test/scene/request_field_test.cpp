@@ -95,9 +95,9 @@ TEST(FindField, TellsTheKind) {
 TEST(FindField, SaysWhatAPathMustDo) {
   EXPECT_EQ(RuleOf("obstacles.flor.friction"),
             "must name an element of obstacles, by its name or its place from 0 to 0; did you mean floor?");
-  EXPECT_EQ(RuleOf("bars.2.EA"), "must name an element of bars, by its place from 0 to 1");
-  EXPECT_EQ(RuleOf("bars.-1.EA"), "must name an element of bars, by its place from 0 to 1");
-  EXPECT_EQ(RuleOf("bars..EA"), "must name an element of bars, by its place from 0 to 1");
+  EXPECT_EQ(RuleOf("bars.2.EA"), "must name an element of bars, by its name or its place from 0 to 1");
+  EXPECT_EQ(RuleOf("bars.-1.EA"), "must name an element of bars, by its name or its place from 0 to 1");
+  EXPECT_EQ(RuleOf("bars..EA"), "must name an element of bars, by its name or its place from 0 to 1");
   EXPECT_EQ(RuleOf("solids.0.plane"), "must not name an element of solids, which has none");
   EXPECT_EQ(RuleOf("obstacles.floor.frction"), "must name a field of obstacles[0]; did you mean friction?");
   EXPECT_EQ(RuleOf("obstcles.floor.friction"), "must name a field of the scene; did you mean obstacles?");
