@@ -131,6 +131,67 @@ TEST(SlackBars, ARopeStopsASnap) {
   }
 }
 
+// A rope of 1.1 between a hand, which moves away from 1, and a block on a rough floor: taut at 0.1, and the block
+// slides where the rope pulls with mu N = 0.4: 0.1 + 0.4 l0 / EA = 0.21 (the spring of the block is loose until it
+// slides).
+TEST(SlackBars, ARopeDragsABlockByASupportThatMoves) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "drag";
+  scene.nodes = {{"block", 0.0, 0.0, false, false}, {"hand", 1.0, 0.0, true, true}};
+  scene.superelements = {{{"block"}, {0.1, 0.0, 0.0, 5.0}}};
+  scene.bars = {{{"block", "hand"}, 4.0, 1.1, StrainMeasure::kBiot, BarSense::kTension, "rope"}};
+  scene.loads = {{"block", 0.0, -1.0, true}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.4}};
+  scene.contacts = {{"block", "floor"}};
+  Stage pull, back;
+  pull.name = "pull";
+  pull.support_motions = {{"hand", 1.0, 0.0}};
+  pull.target = 0.6;
+  back.name = "back";
+  back.support_motions = {{"hand", -1.0, 0.0}};
+  back.target = 0.6;
+  request.program = {pull, back};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const std::vector<const Increment*> events = ContactEventsOf(path);
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_NEAR(events[0]->load_factor, 0.1, kExact);
+  EXPECT_NEAR(events[1]->load_factor, 0.1 + 0.4 * 1.1 / 4.0, kExact);
+  // It slides until the rope has 0.4 + 0.1 x; slack again where the hand has come back by what that stretched it.
+  const double x = events[2]->positions[0], force = 0.4 + 0.1 * x;
+  EXPECT_NEAR(events[2]->load_factor, force * 1.1 / 4.0, kExact);
+  EXPECT_NEAR(1.6 - x, 1.1 * (1.0 + force / 4.0), kExact);
+  ExpectProved(path);
+}
+
+// Nodes that nothing but strings holds hang on what their tension makes.
+TEST(SlackBars, AChainOfStringsHangs) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "chain";
+  constexpr int kPieces = 6;
+  for (int i = 0; i <= kPieces; ++i) {
+    const bool end = i == 0 || i == kPieces;
+    scene.nodes.push_back({"n" + std::to_string(i), 0.5 * i, end ? 0.0 : 0.02 * std::sin(i), end, end});
+    if (!end) scene.loads.push_back({scene.nodes.back().name, 0.0, -0.1, true});
+    if (i > 0)
+      scene.bars.push_back({{"n" + std::to_string(i - 1), "n" + std::to_string(i)},
+                            20.0,
+                            0.48,
+                            StrainMeasure::kBiot,
+                            BarSense::kTension,
+                            ""});
+  }
+  scene.loads.push_back({"n3", 1.0, 0.0, false});
+  request.options.stop = {{"n3.x", ">", 1.75}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Increment& increment : path.increments)
+    EXPECT_EQ(increment.stability.stability, Verdict::kStable) << increment.index;
+  ExpectProved(path);
+}
+
 TEST(SlackBars, GoOnFromAnIncrementAsIfNothingHadBeen) {
   const TraceRequest request = TwoStrings(2.0, 1.0);
   const TracedPath path = TraceIncrements(request);
