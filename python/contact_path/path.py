@@ -26,7 +26,8 @@ class Path(Increments):
     """The increments of a trace, n of them, in order.
 
     path['load_factor'] is a column as an array (n,): of int for `index`, `unstable_directions`, `landing_robust`, and for `stage`, which
-    only load programs have; of str for `kind`, `stability`, `stability_controlled` state_CONTACT and state_BAR; of float for all others. They are named as in the CSV. Arrays are not to be written to. Where an
+    only load programs have; of str for `kind`, `stability`, `stability_controlled`, state_CONTACT and state_BAR; of float for all others. They are named as in the
+    CSV. Arrays are not to be written to. Where an
     increment of a bag carries no positions and contacts (full_state_every), numbers are nan and states ''.
 
     >>> import numpy as np

@@ -66,7 +66,9 @@ class BarElement : public Element {
   void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
     const BarLengths lengths = Measure(positions);
     // N = dW/dl = EA l0 e de/dl, along the bar: N / l times its span.
-    const Real per_length = EA_ * lengths.rest * StrainOf(lengths) * StrainRatePerLength(strain_, lengths);
+    const Real strain = StrainOf(lengths);
+    if (strain == 0.0L) return;
+    const Real per_length = EA_ * lengths.rest * strain * StrainRatePerLength(strain_, lengths);
     AddTo(forces, first_, -per_length * lengths.span);
     AddTo(forces, second_, per_length * lengths.span);
   }

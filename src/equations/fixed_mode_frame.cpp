@@ -1,7 +1,6 @@
 // Where a fixed-mode system stands among those of other modes.
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/equations/frame_around.h"
@@ -35,10 +34,12 @@ bool FixedModeSystem::FitFrame(const std::vector<std::size_t>& framed) const {
   return kMostInFrame * static_cast<double>(ports) <= static_cast<double>(NumDofs());
 }
 
-// All laws where they are few; otherwise those that act, and those that did before while they are few.
+// All laws that do not couple where they are few; otherwise those that act, and those that did before while they are
+// few.
 std::vector<std::size_t> FixedModeSystem::LawsToFrame() const {
-  std::vector<std::size_t> all(laws_.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < laws_.size(); ++i)
+    if (!laws_[i].Couples()) all.push_back(i);
   if (FitFrame(all)) return all;
   all.clear();
   std::set_union(framed_.begin(), framed_.end(), acting_.begin(), acting_.end(), std::back_inserter(all));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "contact_path/tolerances.h"
@@ -89,11 +90,20 @@ double ForceUnitAbove(double bound) {
 void Law::SetLaw(const Traits& traits, std::vector<StateRule> states) {
   traits_ = traits;
   states_ = std::move(states);
-  for (StateRule& state : states_)
+  bool one_idle = states_.empty();
+  for (StateRule& state : states_) {
     for (const PortRule& port : state.ports) {
       state.idle = state.idle && port.kind == PortRule::Kind::kFree;
       state.slides = state.slides || port.Follows();
     }
+    if (state.slides && !state.ports[0].Holds())
+      throw std::logic_error("law: where a port follows, port 0 must be held");
+    if (state.held < 0 || state.held >= NumStates()) throw std::logic_error("law: held must be a state");
+    one_idle = one_idle || state.idle;
+  }
+  if (!one_idle) throw std::logic_error("law: a state must have no forces");
+  if (!std::is_sorted(traits_.dofs.begin(), traits_.dofs.end()))
+    throw std::logic_error("law: degrees of freedom must ascend");
 }
 
 }  // namespace contact_path

@@ -26,7 +26,7 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
     Look& look = *--end;
     const Law& law = laws_[look.second];
     const double away = law.Reach(u_, s_), rate = law.LargestReachRate();
-    if (away <= reach * rate) in_reach.push_back(look.second);
+    if (std::isinf(rate) || away <= reach * rate) in_reach.push_back(look.second);
     const double distance = (1.0 - tolerances::kTouching) * away / rate;
     look.first = std::isfinite(distance) ? moved_ + distance : moved_;
   }

@@ -1,5 +1,6 @@
 #include "contact_path/law/slack_bar.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,6 +12,9 @@ namespace contact_path {
 namespace {
 
 enum Limits { kForce, kSlackness };
+
+// Of the rest length: a slack bar may have none, where strains have no derivatives.
+constexpr double kShortest = 1e-6;
 
 constexpr int kTaut = static_cast<int>(BarState::kTaut), kSlack = static_cast<int>(BarState::kSlack);
 
@@ -25,20 +29,25 @@ SlackBar::SlackBar(const std::array<End, 2>& ends, double EA, double rest_length
       sense_(sense == BarSense::kTension ? 1.0 : -1.0),
       strain_(strain) {
   Traits traits;
-  columns_ = Columns::Zero(2, 5);
-  Eigen::Index k = 0;
-  for (std::size_t end = 0; end < ends.size(); ++end)
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      if (const int dof = ends[end].dofs[axis]; dof >= 0) {
-        traits.moves[0][traits.dofs.size()] = true;
-        traits.dofs.push_back(dof);
-        columns_(static_cast<Eigen::Index>(axis), k++) = end == 0 ? -1.0 : 1.0;
-      }
-  columns_.conservativeResize(2, k + 1);
+  // Degrees of freedom ascend.
+  std::vector<std::array<int, 3>> moved;  // dof, end, axis
+  for (int end = 0; end < 2; ++end)
+    for (int axis = 0; axis < 2; ++axis)
+      if (const int dof = ends.at(static_cast<std::size_t>(end)).dofs.at(static_cast<std::size_t>(axis)); dof >= 0)
+        moved.push_back({dof, end, axis});
+  std::sort(moved.begin(), moved.end());
+  columns_ = Columns::Zero(2, static_cast<Eigen::Index>(moved.size()) + 1);
+  for (const auto& [dof, end, axis] : moved) {
+    columns_(axis, static_cast<Eigen::Index>(traits.dofs.size())) = end == 0 ? -1.0 : 1.0;
+    traits.moves[0][traits.dofs.size()] = true;
+    traits.dofs.push_back(dof);
+  }
   traits.couples = traits.compliant = traits.curved = true;
   traits.force_unit = ForceUnitAbove(EA);
-  // Of other measures the strain of a length has no bound.
-  traits.largest_reach_rate = strain == StrainMeasure::kBiot ? std::sqrt(2.0) : std::numeric_limits<double>::infinity();
+  // While the bar is slack: l0 de/dl is l / l0, 1 or l0 / l, and both ends move.
+  const bool bounded =
+      strain == StrainMeasure::kBiot || (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension);
+  traits.largest_reach_rate = bounded ? std::sqrt(2.0) : std::numeric_limits<double>::infinity();
   std::vector<StateRule> states(2);
   states[kTaut].ports[0] = {PortRule::Kind::kHeld, 0.0, compliance_};
   LimitRule bears;
@@ -58,7 +67,9 @@ SlackBar::SlackBar(const std::array<End, 2>& ends, double EA, double rest_length
 }
 
 SlackBar::Strain SlackBar::StrainAt(double q) const {
-  const double l0 = rest_length_, l = std::sqrt(q);
+  const double l0 = rest_length_;
+  q = std::max(q, std::pow(kShortest * l0, 2));
+  const double l = std::sqrt(q);
   switch (strain_) {
     case StrainMeasure::kBiot: return {(l - l0) / l0, 0.5 / (l0 * l), -0.25 / (l0 * l * q), 0.375 / (l0 * l * q * q)};
     case StrainMeasure::kGreenLagrange: return {0.5 * (l - l0) * (l + l0) / (l0 * l0), 0.5 / (l0 * l0), 0.0, 0.0};
@@ -105,13 +116,15 @@ void SlackBar::ForceHessian(const Eigen::VectorXd& u, double /*s*/, int /*piece*
 
 Modes SlackBar::ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
                         const ActiveSetTolerance& tolerance) const {
-  if (Motion(0, u, s, 0, {}) > tolerance.motion) return {{kSlack, 0}};
-  if (forces[0] > tolerance.force * ForceUnit()) return {{kTaut, 0}};
+  const double motion = Motion(0, u, s, 0, {});
+  if (motion > tolerance.motion) return {{kSlack, 0}};
+  // The motion shows the force of a soft bar.
+  if (motion < -tolerance.motion || forces[0] > tolerance.force * ForceUnit()) return {{kTaut, 0}};
   return now.state == kTaut ? Modes{{kTaut, 0}, {kSlack, 0}} : Modes{{kSlack, 0}, {kTaut, 0}};
 }
 
 Mode SlackBar::Initial(const Eigen::VectorXd& u, double s) const {
-  return {Motion(0, u, s, 0, {}) > tolerances::kTouching ? kSlack : kTaut, 0};
+  return {Motion(0, u, s, 0, {}) > tolerances::kActive ? kSlack : kTaut, 0};
 }
 
 std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, const SceneIndex& index,

@@ -47,6 +47,9 @@ class Restorer {
       if (next == nullptr) return false;
       TakeStates(model_.FromIncrement(*next).modes, &begin);
     }
+    // The states of bars are on record in every increment.
+    for (std::size_t k = 0; k < wanted.bars.size(); ++k)
+      begin.modes[model_.contacts.size() + k].state = static_cast<int>(wanted.bars[k]);
     arc_.SetModes(begin);
     CurvePoint start;
     if (!arc_.Derivatives(arc_.system().Pack(from), *towards, &start)) return false;

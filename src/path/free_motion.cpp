@@ -246,6 +246,8 @@ bool Approaches(const Model& model, const PathPoint& before, const PathPoint& no
     const double gap = contact.Nearest(now.u, now.s).distance;
     if (gap < contact.Nearest(before.u, before.s).distance - tolerances::kActive) return true;
   }
+  for (std::size_t i = model.contacts.size(); i < model.laws.size(); ++i)
+    if (model.laws[i].Reach(now.u, now.s) < model.laws[i].Reach(before.u, before.s) - tolerances::kActive) return true;
   return false;
 }
 

@@ -55,9 +55,15 @@ class StructureRules {
       is_first = false;
       for (std::size_t i = 0; i < elements.size(); ++i) CheckElement(list[i], elements[i]);
     });
-    std::unordered_set<std::string> earlier;  // names of bars, as columns have them
-    for (std::size_t i = 0; i < scene_.bars.size(); ++i)
-      checker_.CheckName(kScene.Key("bars")[i].Key("name"), BarName(scene_.bars[i], i), &earlier);
+    std::unordered_set<std::string> earlier;   // names of bars, as columns have them
+    std::unordered_set<std::string> by_place;  // of bars without a name, and of the forces of all
+    for (std::size_t i = 0; i < scene_.bars.size(); ++i) by_place.insert(BarName({}, i));
+    for (std::size_t i = 0; i < scene_.bars.size(); ++i) {
+      const std::string name = BarName(scene_.bars[i], i);
+      checker_.CheckName(kScene.Key("bars")[i].Key("name"), name, &earlier);
+      if (name != BarName({}, i) && by_place.count(name) != 0)
+        checker_.Add(kScene.Key("bars")[i].Key("name"), name, "must not be that of the place of another bar");
+    }
   }
 
  private:

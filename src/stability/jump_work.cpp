@@ -8,7 +8,7 @@ namespace contact_path {
 
 namespace {
 
-// |force| of the port p per force of port 0 where it slides; 0: it does not, in any state.
+// |force| of the port p per force of port 0 where it slides, the largest of the states; 0: it does not, in any state.
 double RatioOf(const Law& law, std::size_t p) {
   double largest = 0.0;
   for (int state = 0; state < law.NumStates(); ++state)

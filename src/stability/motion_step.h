@@ -22,7 +22,7 @@ struct MachineEquation {
 
   // s = k (Q - f . u), with the Q that the machine has at a point.
   static MachineEquation Of(const Structure& structure, const Machine& machine, const PathPoint& at);
-  // By the unknowns of a fixed-state system.
+  // By the unknowns of a fixed-mode system.
   Eigen::VectorXd Row(Eigen::Index unknowns) const;
 };
 

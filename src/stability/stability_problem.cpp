@@ -104,24 +104,24 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
       entries.emplace_back(place, place, 1.0 + largest);
     }
   }
+  forces_.resize(nd, reactions);
+  forces_.setFromTriplets(forces.begin(), forces.end());
   // What a port that gives way holds is stiffness.
   stiffness.clear();
   for (Eigen::Index reaction = nd; reaction < size; ++reaction) {
     const double compliance = transposed.coeff(reaction + 1, reaction);
     if (compliance == 0.0) continue;
     entries.emplace_back(static_cast<int>(reaction), static_cast<int>(reaction), -compliance);
-    for (const auto& a : forces)
-      for (const auto& b : forces)
-        if (a.col() == reaction - nd && b.col() == reaction - nd)
-          stiffness.emplace_back(a.row(), b.row(), a.value() * b.value() / compliance);
+    for (Eigen::SparseMatrix<double>::InnerIterator a(forces_, reaction - nd); a; ++a)
+      for (Eigen::SparseMatrix<double>::InnerIterator b(forces_, reaction - nd); b; ++b)
+        stiffness.emplace_back(static_cast<int>(a.row()), static_cast<int>(b.row()),
+                               a.value() * b.value() / compliance);
   }
   if (!stiffness.empty()) {
     Eigen::SparseMatrix<double> of_ports(nd, nd);
     of_ports.setFromTriplets(stiffness.begin(), stiffness.end());
     stiffness_ += of_ports;
   }
-  forces_.resize(nd, reactions);
-  forces_.setFromTriplets(forces.begin(), forces.end());
   saddle_.resize(size, size);
   saddle_.setFromTriplets(entries.begin(), entries.end());
 }
@@ -196,8 +196,11 @@ Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
 
 Eigen::VectorXd StabilityProblem::FallingMode() const {
   const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
-  // Not more than there are motions that the laws admit: further columns of a basis would be none.
-  const Eigen::Index count = std::min(kModes, std::max(negative_, nd - (size - nd)));
+  // Not more than there are motions that the laws admit: further columns of a basis would be none. What gives way
+  // admits them.
+  Eigen::Index rigid = 0;
+  for (Eigen::Index k = nd; k < size; ++k) rigid += saddle_.coeff(k, k) == 0.0 ? 1 : 0;
+  const Eigen::Index count = std::min(kModes, std::max(negative_, nd - rigid));
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
   for (Eigen::Index k = 0; k < count; ++k) modes.col(k).head(nd) = GenericVector(nd).array().pow(k + 1);
   if (load_compliance_ < 0.0) modes.col(0).head(nd) = by_load_;

@@ -28,7 +28,7 @@ bool IntegralChecks::GoesOn(const Increment& before, const Increment& at, const 
   if (!(at.arc_length > before.arc_length && after.arc_length > at.arc_length)) return false;
   for (std::size_t i = 0; i < at.contacts.size(); ++i)
     if (after.contacts[i].state != at.contacts[i].state) return false;
-  return true;
+  return after.bars == at.bars;
 }
 
 void IntegralChecks::Check(const Increment* earlier, const Increment& before, const Increment& increment,

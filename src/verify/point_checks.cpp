@@ -55,6 +55,7 @@ void PointChecks::CheckInner(const Increment& before, const Increment& increment
   at.positions = increment.inner.positions;
   at.rotations = increment.inner.rotations;
   at.contacts = increment.inner.contacts;
+  at.bars = increment.bars;
   at.solve.exact = true;
   CheckState(before, at, true, stage_.check.Check(StateOf(before), StateOf(at)));
   for (std::size_t i = 0; i < at.contacts.size(); ++i)

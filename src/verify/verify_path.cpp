@@ -37,7 +37,8 @@ bool AllFinite(const Increment& increment) {
 }
 
 bool SameStates(const Increment& a, const Increment& b) {
-  return std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
+  return a.bars == b.bars &&
+         std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
                     [](const ContactRecord& p, const ContactRecord& q) { return p.state == q.state; });
 }
 
@@ -171,8 +172,7 @@ class StageVerifier {
       motion = std::max(motion, std::abs(increment.rotations[i] - last.rotations[i]));
     findings_.Bound("positions differ from those at the end of the stage before", motion, stage_.rounding);
     BoundReactionChange("reactions differ from those at the end of the stage before", last, increment, motion);
-    if (!SameStates(last, increment))
-      findings_.Report("contact states differ from those at the end of the stage before");
+    if (!SameStates(last, increment)) findings_.Report("states differ from those at the end of the stage before");
   }
 
   void CheckProgress(const Increment& before, const Increment& increment) {
@@ -243,7 +243,7 @@ class StageVerifier {
     const IncrementKind kind = stage_.located ? before.kind : increment.kind;
     if (!SameStates(before, increment) && before.kind != IncrementKind::kStart && before.kind != IncrementKind::kJump &&
         kind != IncrementKind::kContactEvent && kind != IncrementKind::kCornerLimit)
-      findings_.Report("contact states change without an event");
+      findings_.Report("states change without an event");
     const EventRecord& event = before.event;
     if (event.taken < 1 || event.taken > static_cast<int>(event.branches.size()) || !next) return;
     const std::vector<ContactState>& states = event.branches[static_cast<std::size_t>(event.taken) - 1].states;

@@ -1,4 +1,4 @@
-// The fixed-state system with contacts on a deformable surface.
+// The fixed-mode system with contacts on a deformable surface.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -27,7 +27,7 @@ that are not exact, where no more is attainable or admitted in the case (a limit
 stiffness, gaps that eps takes in).
 
 "Attainable" is what rounding alone may do: the bound eps |J| |x| / sigma on the error of a solution of equations whose entries are
-known to rounding, with the scaled Jacobian J of the fixed-state equations, its smallest singular value sigma, the unknowns x, and eps =
+known to rounding, with the scaled Jacobian J of the fixed-mode equations, its smallest singular value sigma, the unknowns x, and eps =
 2.2e-16; the largest along the path.
 
 )";

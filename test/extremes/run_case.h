@@ -26,7 +26,7 @@ struct Outcome {
 Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, double most_seconds);
 
 // What rounding alone may do to the answer: eps |J| |x| / sigma, the largest of up to 20 increments of method branch,
-// with the Jacobian J of the fixed-state equations in scaled form, its smallest singular value sigma above rounding,
+// with the Jacobian J of the fixed-mode equations in scaled form, its smallest singular value sigma above rounding,
 // and the unknowns x; the bound on the error of the solution of equations whose entries are known to rounding.
 // Negative: the system is too large for it, or there are no increments.
 double AttainableError(const ExtremeCase& extreme);

@@ -1,4 +1,4 @@
-// Scenes whose fixed-state equations become singular: parts that rest at a limit point of their own, guides without
+// Scenes whose fixed-mode equations become singular: parts that rest at a limit point of their own, guides without
 // clearance, paths that cross or nearly do. Each is held against a closed form, or against itself for other steps.
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/path/earlier_trace.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
@@ -207,6 +208,58 @@ TEST(SlackBars, GoOnFromAnIncrementAsIfNothingHadBeen) {
   }
 }
 
+// Of a bag that has the state of every fourth increment alone.
+TEST(SlackBars, StatesBetweenAreFoundAnew) {
+  const TraceRequest request = TwoStrings(2.0, 1.0);
+  const TracedPath path = TraceIncrements(request);
+  std::vector<Increment> thinned = path.increments;
+  for (Increment& increment : thinned)
+    if (increment.index % 4 != 0 && increment.kind == IncrementKind::kRegular) {
+      increment.positions.clear();
+      increment.rotations.clear();
+      increment.contacts.clear();
+    }
+  ASSERT_EQ(RestoreStates(request, &thinned), thinned.size());
+  for (std::size_t i = 0; i < thinned.size(); ++i) {
+    EXPECT_NEAR(thinned[i].positions[4], path.increments[i].positions[4], 1e-9) << i;
+    EXPECT_EQ(thinned[i].bars, path.increments[i].bars) << i;
+  }
+}
+
+TEST(SlackBars, HaveTheirStateInsideOfIncrements) {
+  TraceRequest request = TwoStrings(2.0, 1.0);
+  request.options.record.emplace_back("inner");
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_TRUE(std::any_of(path.increments.begin(), path.increments.end(),
+                          [](const Increment& increment) { return !increment.inner.positions.empty(); }));
+  ExpectProved(path);
+}
+
+// Its end comes to the other one, where it has no length, and goes on until it is taut on the other side.
+TEST(SlackBars, ASlackStringMayHaveNoLength) {
+  for (const StrainMeasure strain :
+       {StrainMeasure::kBiot, StrainMeasure::kGreenLagrange, StrainMeasure::kLogarithmic}) {
+    SCOPED_TRACE(static_cast<int>(strain));
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "no_length";
+    scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, true, true}, {"p", 0.0, 1.0, false, false}};
+    scene.bars = {{{"a", "b"}, 1.0, 1.5, strain, BarSense::kTension, "string"}};
+    scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+    Stage near, far;
+    near.name = "near";
+    near.support_motions = {{"b", -1.0, 0.0}};
+    far.name = "far";
+    far.support_motions = {{"b", -2.0, 0.0}};
+    near.target = far.target = 1.0;
+    request.program = {near, far};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    EXPECT_EQ(path.increments.back().bars[0], BarState::kTaut);
+    ExpectProved(path);
+  }
+}
+
 TEST(SlackBars, AreRefusedByNameWhereTheyCannotBe) {
   TraceRequest request = TwoStrings(2.0, 1.0);
   request.options.method = Method::kMpec;
@@ -224,6 +277,10 @@ TEST(SlackBars, AreRefusedByNameWhereTheyCannotBe) {
   request = TwoStrings(2.0, 1.0);
   request.scene.bars[1].name = "left";
   EXPECT_NE(lines(request).find("scene.bars[1].name = left"), std::string::npos) << lines(request);
+  request.scene.bars[1].name = "bar1";
+  EXPECT_NE(lines(request).find("scene.bars[1].name = bar1: must not be that of the place of another bar"),
+            std::string::npos)
+      << lines(request);
 }
 
 }  // namespace

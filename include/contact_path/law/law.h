@@ -31,12 +31,12 @@ struct PortRule {
 // A limit of a state: what must stay >= 0, and the state beyond.
 struct LimitRule {
   enum class Of {
-    kMotion,      // sign * (motion - reference), plus compliance times the force where the port is held
+    kMotion,      // sign * (motion - reference)
     kMotionRate,  // the rate of that, of a motion whose reference moves along
     kPiece,       // sign * (motion - Law::BoundOf()), the motion not from its reference: beyond is another piece
     kForces,      // sum of weight * force over the ports
   };
-  int id = 0;
+  int id = 0;  // another one for each limit of a state
   Of of = Of::kMotion;
   std::size_t port = 0;
   double sign = 1.0;
@@ -52,10 +52,11 @@ struct LimitRule {
 struct StateRule {
   std::array<PortRule, kMostPorts> ports{};
   std::vector<LimitRule> limits;
-  int held = 0;           // the state in which what slides here is held
+  int held = 0;           // the state that holds the ports that follow here, and is as this one otherwise; where none
+                          // follows, this state itself
   bool symmetric = true;  // whether forces and equations have the same gradients, and no port follows
-  bool idle = true;       // no port has a force
-  bool slides = false;    // a port follows
+  bool idle = true;       // set by Law::SetLaw(): no port has a force
+  bool slides = false;    // so is this: a port follows
 
   const LimitRule* Find(int id) const {
     for (const LimitRule& limit : limits)
@@ -64,15 +65,18 @@ struct StateRule {
   }
 };
 
-// A force that a law can have at rest: sums of such forces with weights >= 0 are all of them. weight of a force:
-// share . force.
+// A force that a law can have at rest: sums of such forces with weights >= 0 are all of them. force: of the ports, of
+// the weight 1. The weight that the ray has in forces r of the ports is share . r.
 struct Ray {
   PortReals force{}, share{};
 };
 
 // A law does not change: mode, forces and memory are of the point of the path. Its memory is a reference for each port,
-// the motion from which the port's motion is measured. q stands for (dofs, s) throughout: m + 1 entries with m =
-// Dofs(piece).size() <= kMostLawDofs, the load factor last. u may have more entries than dofs.
+// the motion from which the port's motion is measured; at the start of an arc it is a function of the place, and 0
+// where the port gives way. The engine relies on this: one state is idle; port 0 is a gap, with a force >= 0, without a
+// reference, and held wherever a port follows; it does not dissipate. Ratios and compliances are constants of a state.
+// q stands for (dofs, s) throughout: m + 1 entries with m = Dofs(piece).size() <= kMostLawDofs, the load factor last. u
+// may have more entries than dofs.
 class Law {
  public:
   virtual ~Law() = default;
@@ -88,7 +92,8 @@ class Law {
 
   // Of a known piece.
   virtual LawDofs Dofs(int /*piece*/) const { return traits_.dofs; }
-  // Whether it couples unknowns that elements need not couple: then it has no place in a frame.
+  // Whether it couples unknowns that elements need not couple: then it has no place in a frame, and a system in which
+  // it holds has none.
   bool Couples() const { return traits_.couples; }
   // Whether what it holds gives way: its forces are not redundant beside those of another law.
   bool Compliant() const { return traits_.compliant; }
@@ -113,8 +118,8 @@ class Law {
   // The motion of one port. Where there is no such piece: something that has the sign of its limits.
   virtual double Motion(std::size_t port, const Eigen::VectorXd& u, double s, int piece,
                         const PortReals& reference) const;
-  // *hessian = second derivatives by q of weights . (sum of force * factor * gradient over the ports), forces do not
-  // change: m + 1 square, symmetric. Asked of curved laws only, as SecondDirectional().
+  // *hessian = second derivatives by q of weights . (sum of force * factor * gradient over the ports), with constant
+  // forces: m + 1 square, symmetric. Asked of curved laws only, as SecondDirectional().
   virtual void ForceHessian(const Eigen::VectorXd& u, double s, int piece, const PortReals& forces,
                             const LawVector& weights, LawMatrix* hessian) const;
   // d2/dh2 of the force along q + h direction at h = 0, by q; forces of the ports do not change. Where factors are 1

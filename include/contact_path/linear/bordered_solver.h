@@ -1,4 +1,4 @@
-// Linear systems of a smooth arc: the Jacobian of the fixed-state equations with one row added.
+// Linear systems of a smooth arc: the Jacobian of the fixed-mode equations with one row added.
 #ifndef CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
 #define CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
 

@@ -150,7 +150,7 @@ struct EventRecord {
   int number = 0;                      // of the event, from 1; 0 = not one that the method came upon
   std::vector<BranchRecord> branches;  // all admissible branches but the branch of arrival, best first
   int taken = 0;                       // number of the branch, from 1; 0 = none
-  int weakly_active = 0;               // contacts that could change their state
+  int weakly_active = 0;               // contacts and bars that could change their state
   bool complete = true;                // false: there may be more branches than these
   std::string
       complete_by;  // why there are no more: only_solution, all_combinations; empty where no branches are listed

@@ -14,7 +14,7 @@ namespace contact_path {
 
 // The exact point of the arc on the plane at t of the step, where Newton's method finds it, by an arc of its own, so
 // that the steps of the path are the same with and without the point.
-std::optional<PathPoint> PointApart(const Model& model, const ModeArc& arc, const Step& step, double t);
+std::optional<PathPoint> PointApart(const Model& model, const ModeArc& of, const Step& step, double t);
 
 struct Onset {
   CurvePoint place;
@@ -31,7 +31,7 @@ class OnsetFinder {
   std::optional<Onset> Find(const ArcStep& at, const PathPoint& end);
   // The verdict of a point inside the arc; null_directions: of the tangent at fixed load factor, du, where it is
   // singular.
-  void Note(const CurvePoint& at, const PathPoint& point, const Eigen::MatrixXd& null_directions);
+  void Note(const CurvePoint& end, const PathPoint& point, const Eigen::MatrixXd& null_directions);
   // Of the arc that begins, at `current`, at the event at the end of the step.
   void NoteBehind(const ArcStep& at, const PathPoint& point, const CurvePoint& current);
   Eigen::MatrixXd NullDirections(const ArcStep& at) const;
