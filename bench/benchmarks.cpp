@@ -26,8 +26,8 @@ double Seconds(std::clock_t since) { return static_cast<double>(std::clock() - s
 
 // One factorisation of the matrix of the increments at `point`, pattern and pivots known.
 double FactorisationTime(const Model& model, const PathPoint& point) {
-  FixedStateSystem system(model.structure, model.contacts);
-  system.SetStates(point.states, SlipReferences(model.contacts, point));
+  FixedModeSystem system(model.structure, model.laws);
+  system.SetModesFrom(point);
   const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(system.Pack(point));
   const Eigen::VectorXd increment = Eigen::VectorXd::LinSpaced(system.NumUnknowns(), 0.5, 1.0);
   BorderedSolver solver;

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/fixed_mode_system.h"
 
 namespace contact_path {
 namespace {
@@ -148,10 +148,10 @@ double CholmodTime(const Structure& structure, const Eigen::VectorXd& u) {
 }
 
 Eigen::SparseMatrix<double> BorderedMatrix(const Model& model, ContactState state) {
-  FixedStateSystem system(model.structure, model.contacts);
-  const std::vector<ContactState> states(model.contacts.size(), state);
-  system.SetStates(states, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(states.size())));
+  FixedModeSystem system(model.structure, model.laws);
   PathPoint point = model.InitialPoint();
+  for (Mode& mode : point.modes) mode.state = NumberOf(state);
+  system.SetModes(point.modes);
   // Away from the stress-free state, as along a path.
   for (Eigen::Index i = 0; i < point.u.size(); ++i) point.u[i] += 1e-3 * std::sin(1.7 * static_cast<double>(i));
   const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(system.Pack(point));

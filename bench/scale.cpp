@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/branch/contact_arc.h"
+#include "contact_path/branch/mode_arc.h"
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/model.h"
@@ -131,12 +131,14 @@ void PointOfAnArc(benchmark::State& state) {
   options.rows = 49;
   const TraceRequest request = LatticeRequest(options);
   const Model model(request.scene, CharacteristicScales(request.scene));
-  const PathPoint from = model.InitialPoint();
+  PathPoint from = model.InitialPoint();
+  for (std::size_t i = 0; i < from.modes.size(); ++i) {
+    const bool slides = static_cast<std::int64_t>(i) < state.range(0);
+    from.modes[i].state = NumberOf(slides ? ContactState::kSlipPlus : ContactState::kOpen);
+  }
   for (auto iteration : state) {
-    ContactArc arc(model.structure, model.contacts);
-    std::vector<ContactState> states(model.contacts.size(), ContactState::kOpen);
-    std::fill_n(states.begin(), state.range(0), ContactState::kSlipPlus);
-    arc.SetStates(states, from);
+    ModeArc arc(model.structure, model.laws);
+    arc.SetModes(from);
     const Eigen::VectorXd x = arc.system().Pack(from);
     const Eigen::VectorXd towards = Eigen::VectorXd::Unit(model.structure.NumDofs() + 1, model.structure.NumDofs());
     CurvePoint point;

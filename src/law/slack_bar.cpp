@@ -13,10 +13,7 @@ namespace {
 
 enum Limits { kForce, kSlackness };
 
-// Of the rest length: a slack bar may have none, where strains have no derivatives.
-constexpr double kShortest = 1e-6;
-
-constexpr int kTaut = static_cast<int>(BarState::kTaut), kSlack = static_cast<int>(BarState::kSlack);
+constexpr int kTaut = NumberOf(BarState::kTaut), kSlack = NumberOf(BarState::kSlack);
 
 }  // namespace
 
@@ -68,7 +65,8 @@ SlackBar::SlackBar(const std::array<End, 2>& ends, double EA, double rest_length
 
 SlackBar::Strain SlackBar::StrainAt(double q) const {
   const double l0 = rest_length_;
-  q = std::max(q, std::pow(kShortest * l0, 2));
+  // A slack string may have no length, where strains have no derivatives.
+  if (sense_ > 0.0) q = std::max(q, std::pow(tolerances::kSmallShare * l0, 2));
   const double l = std::sqrt(q);
   switch (strain_) {
     case StrainMeasure::kBiot: return {(l - l0) / l0, 0.5 / (l0 * l), -0.25 / (l0 * l * q), 0.375 / (l0 * l * q * q)};

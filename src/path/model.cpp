@@ -141,7 +141,7 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   }
   for (std::size_t k = 0; k < bars.size(); ++k) {
     const std::size_t i = contacts.size() + k;
-    point.modes.push_back({static_cast<int>(increment.bars[k]), 0});
+    point.modes.push_back({NumberOf(increment.bars[k]), 0});
     laws.Put(laws[i].CompliantForces(point.u, point.s, point.modes[i]), i, &point.forces);
   }
   NotePieces(&point);

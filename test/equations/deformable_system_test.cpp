@@ -1,6 +1,7 @@
 // The fixed-mode system with contacts on a deformable surface.
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "contact_path/contact/scene_contacts.h"
@@ -9,6 +10,7 @@
 #include "support/deformable_scene.h"
 #include "support/derivative_checker.h"
 #include "support/random.h"
+#include "support/system_derivatives.h"
 
 namespace contact_path::deformable_system_test {
 namespace {
@@ -39,19 +41,8 @@ TEST_F(DeformableSystem, DerivativesMeetDifferencesInEveryStateOnEveryPatch) {
         system_.SetModes(ModesOf({state, State::kClosed}, {patch, 4 - patch}), ByPort(random_.Vector(2, -0.3, 0.3)));
         if (active) system_.SetActive(system_.Limits());
         const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
-        const auto residual = [&](const Eigen::VectorXd& at) {
-          Eigen::VectorXd value;
-          system_.Residual(at, &value);
-          return value;
-        };
-        const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system_.TransposedJacobian(x)).transpose();
-        EXPECT_TRUE(IsJacobian(residual, x, jacobian, kDerivativeTolerance, kStep)) << ToString(state) << patch;
-        const auto rate = [&](const Eigen::VectorXd& h) {
-          return Eigen::VectorXd(system_.TransposedJacobian(x + h[0] * dx).transpose() * dx);
-        };
-        const Eigen::VectorXd second = system_.SecondDerivative(x, dx);
-        EXPECT_TRUE(IsJacobian(rate, Eigen::VectorXd::Zero(1), second, kDerivativeTolerance, kStep))
-            << ToString(state) << patch;
+        SCOPED_TRACE(std::string(ToString(state)) + std::to_string(patch));
+        ExpectDerivativesMeetDifferences(&system_, x, dx, kStep);
       }
 }
 

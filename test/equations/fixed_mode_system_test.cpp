@@ -15,6 +15,7 @@
 #include "support/mixed_scene.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
+#include "support/system_derivatives.h"
 
 namespace contact_path::fixed_mode_system_test {
 namespace {
@@ -172,19 +173,8 @@ TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
     for (const bool active : {false, true}) {
       if (active) system_.SetActive(system_.Limits());
       const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
-      const auto residual = [&](const Eigen::VectorXd& at) {
-        Eigen::VectorXd value;
-        system_.Residual(at, &value);
-        return value;
-      };
-      const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system_.TransposedJacobian(x)).transpose();
-      EXPECT_TRUE(IsJacobian(residual, x, jacobian, kDerivativeTolerance, kStep)) << ToString(state);
-      const auto rate = [&](const Eigen::VectorXd& h) {
-        return Eigen::VectorXd(system_.TransposedJacobian(x + h[0] * dx).transpose() * dx);
-      };
-      EXPECT_TRUE(
-          IsJacobian(rate, Eigen::VectorXd::Zero(1), system_.SecondDerivative(x, dx), kDerivativeTolerance, kStep))
-          << ToString(state);
+      SCOPED_TRACE(ToString(state));
+      ExpectDerivativesMeetDifferences(&system_, x, dx, kStep);
     }
   }
 }

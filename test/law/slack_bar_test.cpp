@@ -16,6 +16,7 @@
 #include "contact_path/structure/bar.h"
 #include "support/derivative_checker.h"
 #include "support/random.h"
+#include "support/system_derivatives.h"
 
 namespace contact_path::slack_bar_test {
 namespace {
@@ -90,16 +91,7 @@ TEST_F(NodeOnTwoStrings, DerivativesMeetDifferences) {
     EXPECT_EQ(system.NumUnknowns(), system.NumEquations() + 1);
     VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 0.4);
     const VectorXd dx = random.Vector(system.NumUnknowns(), -1.0, 1.0);
-    const auto residual = [&](const VectorXd& at) {
-      VectorXd value;
-      system.Residual(at, &value);
-      return value;
-    };
-    EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
-    const auto rate = [&](const VectorXd& h) {
-      return VectorXd(system.TransposedJacobian(x + h[0] * dx).transpose() * dx);
-    };
-    EXPECT_TRUE(IsJacobian(rate, VectorXd::Zero(1), system.SecondDerivative(x, dx)));
+    ExpectDerivativesMeetDifferences(&system, x, dx);
     for (const Limit& limit : system.Limits()) {
       const auto value = [&](const VectorXd& at) { return VectorXd::Constant(1, system.Value(limit, at)); };
       EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
@@ -159,16 +151,7 @@ TEST(SlackBar, ChainOfStringsMeetsDifferences) {
   Random random(5);
   const VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 0.4) + VectorXd::Unit(system.NumUnknowns(), 2),
                  dx = random.Vector(system.NumUnknowns(), -1.0, 1.0);
-  const auto residual = [&](const VectorXd& at) {
-    VectorXd value;
-    system.Residual(at, &value);
-    return value;
-  };
-  EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
-  const auto rate = [&](const VectorXd& h) {
-    return VectorXd(system.TransposedJacobian(x + h[0] * dx).transpose() * dx);
-  };
-  EXPECT_TRUE(IsJacobian(rate, VectorXd::Zero(1), system.SecondDerivative(x, dx)));
+  ExpectDerivativesMeetDifferences(&system, x, dx);
 }
 
 // The load is k x + EA x - EA (0.1 - x) / 0.9 until x = 0.1, and k x + EA x beyond; and back.

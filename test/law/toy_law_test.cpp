@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "contact_path/law/law.h"
 #include "support/derivative_checker.h"
 #include "support/random.h"
+#include "support/system_derivatives.h"
 
 namespace contact_path::toy_law_test {
 namespace {
@@ -161,17 +163,8 @@ TEST_F(ToyLawOnSprings, DerivativesMeetDifferencesOnEveryPiece) {
         VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 0.9);
         x[0] += piece;
         const VectorXd dx = random.Vector(system.NumUnknowns(), -1.0, 1.0);
-        const auto residual = [&](const VectorXd& at) {
-          VectorXd value;
-          system.Residual(at, &value);
-          return value;
-        };
-        EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()))
-            << state << " " << piece;
-        const auto rate = [&](const VectorXd& h) {
-          return VectorXd(system.TransposedJacobian(x + h[0] * dx).transpose() * dx);
-        };
-        EXPECT_TRUE(IsJacobian(rate, VectorXd::Zero(1), system.SecondDerivative(x, dx))) << state << " " << piece;
+        SCOPED_TRACE(std::to_string(state) + " " + std::to_string(piece));
+        ExpectDerivativesMeetDifferences(&system, x, dx);
       }
     }
 }

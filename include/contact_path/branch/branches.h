@@ -81,7 +81,7 @@ double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& po
 // fewest laws slide without moving. Where all branches turn by 90 degrees or more, or, with
 // Arrival::forward, on none the path parameter goes on, forces may have to change while nothing moves, as where a
 // block that is carried along meets a stop. Then branches are added for all other reactions that the point can have
-// (reaction_redistribution.h). The complementarity problem of the rates (rate_complementarity.h) tells the branches
+// (force_redistribution.h). The complementarity problem of the rates (rate_complementarity.h) tells the branches
 // where its solutions are the only ones, and where there are more than 4^6 combinations of states; up to 4^6
 // combinations are all tried otherwise, and where the solution for a sense of the load neither leads on nor is the
 // branch of arrival. Where there are more of them, and that problem does not exist or leaves a sense open, principal

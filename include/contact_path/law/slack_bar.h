@@ -17,6 +17,7 @@ namespace contact_path {
 
 // The numbers are those of Mode::state.
 enum class BarState { kTaut, kSlack };
+constexpr int NumberOf(BarState state) { return static_cast<int>(state); }
 
 // "taut", "slack".
 std::string_view ToString(BarState state);
