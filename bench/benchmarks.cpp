@@ -52,7 +52,7 @@ void RegularIncrements(benchmark::State& state, TraceRequest request, double flo
     PathPoint point = model.InitialPoint();
     StartRecord found;
     if (method.Start(point, &found)) throw std::runtime_error("the path cannot start");
-    Recorder recorder(Method::kBranch, LongLists(), nullptr);
+    Recorder recorder(Method::kBranch, LongLists(), false, nullptr);
     recorder.Start(model, 0, point, Residuals(), found, 0.0);
     double seconds = 0.0;
     int regular = 0, factorised = 0;
