@@ -114,6 +114,7 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
            << ToString(branch.states[k]);
     }
     if (const std::size_t same = branch.states.size() - changes; same > 0) text << "; " << same << " unchanged";
+    if (!increment.bars.empty()) text << "; states of bars are not listed";
     text << '\n';
   }
   out << text.str();
