@@ -78,18 +78,22 @@ bool RateComplementarity::FindPairs(const RateProblem& rates) {
     for (const LimitRule& limit : law.In(base).limits) {
       // A law that may become idle has no force: all its limits are at zero.
       if (!limit.OfForces() || (!idle && !HasState(modes, limit.next))) continue;
-      Pair pair{k, 0, 1.0};
+      Pair pair{k, -1, 1.0};
       pair.next = limit.next;
       for (const LimitRule& back : law.In(limit.next).limits)
         if (back.next == base && !back.OfForces() && !back.OfPiece()) {
+          if (limit.weights[back.port] != back.sign) return false;  // z and w are measured alike
           pair.port = first + static_cast<Eigen::Index>(back.port);
           pair.sign = back.sign;
           for (std::size_t p = 0; p < law.NumPorts(); ++p) {
             if (p == back.port || limit.weights[p] == 0.0) continue;
+            if (pair.other >= 0) return false;  // a pair is of two ports at most
             pair.other = first + static_cast<Eigen::Index>(p);
             pair.weight = limit.weights[p];
           }
         }
+      // Nothing leads back from the state beyond: the rates are no complementarity problem.
+      if (pair.port < 0) return false;
       turn_[static_cast<std::size_t>(pair.port)] = pair.other < 0 ? kAlone : kWithOther;
       if (pairs_.size() > pairs_before && pairs_.back().port == pair.port) pairs_.back().first_of_two = true;
       pairs_.push_back(pair);

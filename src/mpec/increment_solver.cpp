@@ -176,7 +176,7 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
         if (!laws_[i].Exists(modes[i])) return std::nullopt;
         continue;
       }
-      if (laws_[i].Compliant()) modes[i] = laws_[i].Known(point.u, point.s, modes[i]);
+      modes[i] = laws_[i].Known(point.u, point.s, modes[i]);
       // The state beyond it; where the law comes back from there, the corner between both.
       if (corners && changed[i])
         active.push_back(limit);
