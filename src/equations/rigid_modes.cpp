@@ -170,7 +170,7 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
     count += free.back().cols();
   }
   if (count == 0) return Eigen::MatrixXd(unknowns, 0);
-  // What contacts, supports that move and curved surfaces resist.
+  // What laws, supports that move and curved surfaces resist.
   RowSpace together(count);
   for (Eigen::Index equation = 0; equation < transposed.cols(); ++equation) {
     Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(count), size = sum;

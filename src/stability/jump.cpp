@@ -224,7 +224,7 @@ class Jumper {
 
   bool Cancelled() const { return cancelled_ && cancelled_(); }
 
-  // The time of the first step: drag is so many times the stiffness that each contact alone decides on its state.
+  // The time of the first step: drag is so many times the stiffness that each law alone decides on its state.
   double FirstTime(const Resistance& resistance) const {
     double largest = 0.0;  // stiffness over drag or mass
     const Eigen::VectorXd& by = resistance.HasMass() ? resistance.mass : resistance.drag;

@@ -11,7 +11,7 @@
 namespace contact_path {
 namespace {
 
-using Set = unsigned;  // bit i: contact i is in it
+using Set = unsigned;  // bit i: port i is in it
 
 std::vector<int> Members(Set set) {
   std::vector<int> members;
@@ -29,7 +29,7 @@ Eigen::MatrixXd Submatrix(const Eigen::MatrixXd& matrix, const std::vector<int>&
   return part;
 }
 
-// Whether a matrix is positive definite by its symmetric part: then no motion among these contacts grows.
+// Whether a matrix is positive definite by its symmetric part: then no motion among these ports grows.
 bool IsDefinite(const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXd symmetric = 0.5 * (matrix + matrix.transpose());
   return symmetric.llt().info() == Eigen::Success;
