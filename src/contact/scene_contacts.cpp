@@ -64,15 +64,16 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
                            const std::vector<double>& slip_origins) {
   struct Placed {
     std::shared_ptr<const Surface> surface;
-    NodeMotion motion;
+    MovingFrame frame;
   };
   std::vector<Placed> obstacles;
-  for (const Obstacle& obstacle : scene.obstacles) obstacles.push_back({MakeSurface(obstacle), NodeMotion()});
+  for (const Obstacle& obstacle : scene.obstacles) obstacles.push_back({MakeSurface(obstacle), {}});
   for (const ObstacleMotion& motion : scene.obstacle_motions) {
-    NodeMotion& of = obstacles[index.Obstacle(motion.obstacle)].motion;
-    of.velocity = {motion.dx, motion.dy};
-    of.turn = motion.turn;
-    of.about = {motion.about_x, motion.about_y};
+    MovingFrame& of = obstacles[index.Obstacle(motion.obstacle)].frame;
+    of.origin[0].rate = motion.dx;
+    of.origin[1].rate = motion.dy;
+    of.angle.rate = motion.turn;
+    if (motion.turn != 0.0) of.about = of.start = {motion.about_x, motion.about_y};
   }
 
   std::vector<PlacedBoundary> boundaries(scene.surfaces.size());
@@ -91,15 +92,15 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     }
     const std::size_t at = index.Obstacle(candidate.obstacle);
     const Obstacle& obstacle = scene.obstacles[at];
-    NodeMotion motion = obstacles[at].motion;
-    motion.dofs = {structure.Dof(node, 0), structure.Dof(node, 1)};
-    motion.held = structure.StartPosition(node);
-    const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, obstacle, motion.turn != 0.0);
+    const MovingFrame& frame = obstacles[at].frame;
+    const FixedPoint point = structure.PointOf(node);
+    const bool can_slide =
+        CanSlide(point.frame.origin[0].dof >= 0, point.frame.origin[1].dof >= 0, obstacle, frame.angle.rate != 0.0);
     std::optional<Eigen::Vector2d> slip_origin;
     if (const std::size_t k = 2 * contacts.size(); can_slide && !slip_origins.empty())
       slip_origin = Eigen::Vector2d(slip_origins[k], slip_origins[k + 1]);
-    contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, motion, can_slide ? obstacle.friction : 0.0,
-                                                   force_bounds, slip_origin));
+    contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, MovingPlace::SeenFrom(frame, point),
+                                                   can_slide ? obstacle.friction : 0.0, force_bounds, slip_origin));
   }
   return contacts;
 }

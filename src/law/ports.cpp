@@ -35,14 +35,6 @@ LawMatrix Spread(const LawMatrix& matrix, const LawDofs& from, const LawDofs& to
   return spread;
 }
 
-LawVector LocalOf(const LawDofs& dofs, const Eigen::Ref<const Eigen::VectorXd>& u, double s) {
-  LawVector q(static_cast<Eigen::Index>(dofs.size()) + 1);
-  Eigen::Index k = 0;
-  for (const int dof : dofs) q[k++] = u[dof];
-  q[k] = s;
-  return q;
-}
-
 double PortsAt::Rate(const LawVector& gradient, const Eigen::Ref<const Eigen::VectorXd>& du, double ds) const {
   double sum = 0.0;
   Eigen::Index k = 0;

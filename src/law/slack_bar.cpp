@@ -19,31 +19,20 @@ constexpr int kTaut = NumberOf(BarState::kTaut), kSlack = NumberOf(BarState::kSl
 
 std::string_view ToString(BarState state) { return state == BarState::kTaut ? "taut" : "slack"; }
 
-SlackBar::SlackBar(const std::array<End, 2>& ends, double EA, double rest_length, StrainMeasure strain, BarSense sense)
-    : ends_(ends),
+SlackBar::SlackBar(MovingPlace span, double EA, double rest_length, StrainMeasure strain, BarSense sense)
+    : span_(std::move(span)),
       rest_length_(rest_length),
       compliance_(rest_length / EA),
       sense_(sense == BarSense::kTension ? 1.0 : -1.0),
       strain_(strain) {
   Traits traits;
-  // Degrees of freedom ascend.
-  std::vector<std::array<int, 3>> moved;  // dof, end, axis
-  for (int end = 0; end < 2; ++end)
-    for (int axis = 0; axis < 2; ++axis)
-      if (const int dof = ends.at(static_cast<std::size_t>(end)).dofs.at(static_cast<std::size_t>(axis)); dof >= 0)
-        moved.push_back({dof, end, axis});
-  std::sort(moved.begin(), moved.end());
-  columns_ = Columns::Zero(2, static_cast<Eigen::Index>(moved.size()) + 1);
-  for (const auto& [dof, end, axis] : moved) {
-    columns_(axis, static_cast<Eigen::Index>(traits.dofs.size())) = end == 0 ? -1.0 : 1.0;
-    traits.moves[0][traits.dofs.size()] = true;
-    traits.dofs.push_back(dof);
-  }
+  traits.dofs = span_.Dofs();
+  for (std::size_t k = 0; k < traits.dofs.size(); ++k) traits.moves[0][k] = span_.Moves(static_cast<Eigen::Index>(k));
   traits.couples = traits.compliant = traits.curved = true;
   traits.force_unit = ForceUnitAbove(EA);
   // While the bar is slack: l0 de/dl is l / l0, 1 or l0 / l, and both ends move.
-  const bool bounded =
-      strain == StrainMeasure::kBiot || (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension);
+  const bool bounded = span_.Affine() && (strain == StrainMeasure::kBiot ||
+                                          (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension));
   traits.largest_reach_rate = bounded ? std::sqrt(2.0) : std::numeric_limits<double>::infinity();
   std::vector<StateRule> states(2);
   states[kTaut].ports[0] = {PortRule::Kind::kHeld, 0.0, compliance_};
@@ -76,40 +65,33 @@ SlackBar::Strain SlackBar::StrainAt(double q) const {
   return {};
 }
 
-Eigen::Vector2d SlackBar::Span(const Eigen::VectorXd& u) const {
-  Eigen::Vector2d span = Eigen::Vector2d::Zero();
-  for (std::size_t end = 0; end < ends_.size(); ++end)
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto e = static_cast<Eigen::Index>(axis);
-      const double x = ends_[end].dofs[axis] >= 0 ? u[ends_[end].dofs[axis]] : ends_[end].held[e];
-      span[e] += end == 0 ? -x : x;
-    }
-  return span;
-}
-
-void SlackBar::Evaluate(const Eigen::VectorXd& u, double /*s*/, int /*piece*/, const PortReals& /*reference*/,
+void SlackBar::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& /*reference*/,
                         PortsAt* ports) const {
-  const Eigen::Vector2d d = Span(u);
+  const PlaceAt span(span_, u, s);
+  const Eigen::Vector2d& d = span.x;
   const Strain e = StrainAt(d.squaredNorm());
   const double scale = -sense_ * rest_length_;
   ports->dofs = OwnDofs();
   PortAt& port = (*ports)[0];
   port.motion = scale * e.value;
-  port.gradient = columns_.transpose() * (2.0 * scale * e.first * d);
-  const Eigen::Matrix2d hessian =
-      scale * (2.0 * e.first * Eigen::Matrix2d::Identity() + 4.0 * e.second * d * d.transpose());
-  port.hessian = columns_.transpose() * hessian * columns_;
+  const Eigen::Vector2d gradient = 2.0 * scale * e.first * d;
+  port.gradient = span.first.transpose() * gradient;
+  port.hessian = span.Hessian(
+      gradient, scale * (2.0 * e.first * Eigen::Matrix2d::Identity() + 4.0 * e.second * d * d.transpose()));
 }
 
-void SlackBar::ForceHessian(const Eigen::VectorXd& u, double /*s*/, int /*piece*/, const PortReals& forces,
+void SlackBar::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
                             const LawVector& weights, LawMatrix* hessian) const {
-  const Eigen::Vector2d d = Span(u), v = columns_ * weights;
+  const PlaceAt span(span_, u, s);
+  const Eigen::Vector2d& d = span.x;
+  const Eigen::Vector2d v = span.first * weights;
   const Strain e = StrainAt(d.squaredNorm());
   const double along = d.dot(v), scale = -forces[0] * sense_ * rest_length_;
-  const Eigen::Matrix2d change =
-      scale * (4.0 * e.second * (along * Eigen::Matrix2d::Identity() + v * d.transpose() + d * v.transpose()) +
-               8.0 * e.third * along * d * d.transpose());
-  *hessian = columns_.transpose() * change * columns_;
+  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d change = scale * (4.0 * e.second * (along * unit + v * d.transpose() + d * v.transpose()) +
+                                          8.0 * e.third * along * d * d.transpose());
+  *hessian = span.HessianChange(2.0 * scale * e.first * d,
+                                scale * (2.0 * e.first * unit + 4.0 * e.second * d * d.transpose()), change, weights);
 }
 
 Modes SlackBar::ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
@@ -131,16 +113,13 @@ std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, 
   std::vector<std::unique_ptr<const SlackBar>> bars;
   for (const std::size_t i : OneSidedBars(scene)) {
     const Bar& bar = scene.bars[i];
-    std::array<SlackBar::End, 2> ends;
-    std::array<Eigen::Vector2d, 2> start;
-    for (std::size_t end = 0; end < 2; ++end) {
-      const std::size_t node = index.Node(bar.nodes[end]);
-      const auto number = static_cast<int>(node);
-      ends[end] = {{structure.Dof(number, 0), structure.Dof(number, 1)}, structure.StartPosition(number)};
-      start[end] = {reference[2 * node], reference[2 * node + 1]};
-    }
-    const double rest_length = bar.rest_length > 0.0 ? bar.rest_length : (start[1] - start[0]).norm();
-    bars.push_back(std::make_unique<const SlackBar>(ends, bar.EA, rest_length, bar.strain, bar.sense));
+    const std::size_t first = index.Node(bar.nodes[0]), second = index.Node(bar.nodes[1]);
+    const Eigen::Vector2d start(reference[2 * second] - reference[2 * first],
+                                reference[2 * second + 1] - reference[2 * first + 1]);
+    const double rest_length = bar.rest_length > 0.0 ? bar.rest_length : start.norm();
+    bars.push_back(std::make_unique<const SlackBar>(
+        MovingPlace::Between(structure.PointOf(static_cast<int>(first)), structure.PointOf(static_cast<int>(second))),
+        bar.EA, rest_length, bar.strain, bar.sense));
   }
   return bars;
 }

@@ -148,6 +148,11 @@ Eigen::Vector2d Structure::StartPosition(int node) const {
   return {start_values_[dofs_.Index(node, Field::kPosition, 0)], start_values_[dofs_.Index(node, Field::kPosition, 1)]};
 }
 
+FixedPoint Structure::PointOf(int node) const {
+  const Eigen::Vector2d start = StartPosition(node);
+  return {{{Coordinate{Dof(node, 0), start.x()}, Coordinate{Dof(node, 1), start.y()}}}};
+}
+
 Eigen::VectorXd Structure::AllValues(const Eigen::VectorXd& u) const {
   Eigen::VectorXd values = start_values_;
   Eigen::Index k = 0;

@@ -8,6 +8,7 @@
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/rate_problem.h"
 #include "support/curved_contacts.h"
+#include "support/points.h"
 
 namespace contact_path::curved_surface_test {
 namespace {
@@ -23,7 +24,7 @@ constexpr double kFriction = 0.3;
 class NodeOnADisc : public testing::Test {
  protected:
   NodeOnADisc() : structure_(MakeScene()) {
-    const NodeMotion motion = {{0, 1}, Vector2d::Zero(), Vector2d::Zero()};
+    const MovingPlace motion(PointOfNode(0, 1));
     contacts_.push_back(
         std::make_unique<RigidPair>(std::make_shared<DiscOutside>(Vector2d::Zero(), 1.0), motion, kFriction));
     contacts_.push_back(

@@ -13,6 +13,7 @@
 #include "contact_path/geometry/point_curves.h"
 #include "contact_path/structure/structure.h"
 #include "support/contact_points.h"
+#include "support/points.h"
 
 namespace contact_path::patches_test {
 namespace {
@@ -29,8 +30,7 @@ constexpr ContactState kSlipPlus = ContactState::kSlipPlus, kSlipMinus = Contact
 class NodeOnABend : public testing::TestWithParam<double> {
  protected:
   NodeOnABend() : structure_(MakeScene()), curve_(MakePolyline({{-1.0, 0.0}, {1.0, 0.0}, {2.0, -1.0}}, false, 0.4)) {
-    contacts_.push_back(
-        std::make_unique<RigidPair>(curve_, NodeMotion{{0, 1}, Vector2d::Zero(), Vector2d::Zero()}, GetParam()));
+    contacts_.push_back(std::make_unique<RigidPair>(curve_, MovingPlace(PointOfNode(0, 1)), GetParam()));
     laws_ = LawsOf(contacts_);
   }
   static Scene MakeScene() {

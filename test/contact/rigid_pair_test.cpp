@@ -10,6 +10,7 @@
 #include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"
+#include "support/points.h"
 #include "support/random.h"
 
 namespace contact_path::rigid_pair_test {
@@ -42,13 +43,13 @@ class RigidPairs : public testing::Test {
     for (const double turn : {0.0, 0.4})
       for (const int patch : {-1, 0, 1, 2, 3}) Add(spline, velocity, turn, about, q, patch);
     // A node that is held in x.
-    const NodeMotion held = {{-1, 1}, {0.7, 0.0}, velocity, 0.8, about};
+    const MovingPlace held = MovingPlace::SeenFrom(MovedFrame(velocity, 0.8, about), PointOfNode(-1, 1, {0.7, 0.0}));
     more_.push_back(std::make_unique<RigidPair>(spline, held, 0.3));
     cases_.push_back({more_.back().get(), 1, Eigen::Vector2d(0.6, 0.3)});
   }
   void Add(const std::shared_ptr<const Surface>& surface, const Eigen::Vector2d& velocity, double turn,
            const Eigen::Vector2d& about, const Eigen::VectorXd& q, int patch) {
-    const NodeMotion motion = {{0, 1}, Eigen::Vector2d::Zero(), velocity, turn, about};
+    const MovingPlace motion = MovingPlace::SeenFrom(MovedFrame(velocity, turn, about), PointOfNode(0, 1));
     more_.push_back(std::make_unique<RigidPair>(surface, motion, 0.3));
     cases_.push_back({more_.back().get(), patch, q});
   }
@@ -128,7 +129,7 @@ TEST_F(RigidPairs, DerivativesOfHessiansMeetDifferences) {
 TEST_F(RigidPairs, WhatTurnsAndMovesWithTheObstacleStaysOnItsSurface) {
   const Eigen::Vector2d velocity(0.3, -0.2), about(0.4, 0.9), place(0.7, 0.6);
   const std::shared_ptr<const Surface> spline = MakeSpline({{-1.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {2.0, 0.5}}, false);
-  const RigidPair pair(spline, {{0, 1}, Eigen::Vector2d::Zero(), velocity, 0.5, about}, 0.3);
+  const RigidPair pair(spline, MovingPlace::SeenFrom(MovedFrame(velocity, 0.5, about), PointOfNode(0, 1)), 0.3);
   const int patch = pair.PatchAt(place, 0.0);
   for (const double s : {-3.0, 1.0, 20.0}) {
     const Eigen::Vector2d arm = place - about;
@@ -144,7 +145,7 @@ TEST_F(RigidPairs, WhatTurnsAndMovesWithTheObstacleStaysOnItsSurface) {
 // Before the first patch and after the last one there is nothing to touch, and the end is what is near.
 TEST_F(RigidPairs, PastTheEndsOfAnOpenSurfaceTheGapIsTheDistanceFromTheEnd) {
   const std::shared_ptr<const Surface> line = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
-  const RigidPair pair(line, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
+  const RigidPair pair(line, MovingPlace(PointOfNode(0, 1)), 0.3);
   EXPECT_TRUE(pair.HasPatches());
   const Eigen::VectorXd before = Eigen::Vector2d(-0.3, 0.4), on = Eigen::Vector2d(0.3, 0.4),
                         past = Eigen::Vector2d(3.3, 1.4);
@@ -163,7 +164,7 @@ TEST_F(RigidPairs, PastTheEndsOfAnOpenSurfaceTheGapIsTheDistanceFromTheEnd) {
 
 TEST_F(RigidPairs, SlipRunsOnOverPatches) {
   const std::shared_ptr<const Surface> line = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
-  const RigidPair pair(line, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
+  const RigidPair pair(line, MovingPlace(PointOfNode(0, 1)), 0.3);
   const Eigen::VectorXd from = Eigen::Vector2d(0.2, 0.0), to = Eigen::Vector2d(2.0, 0.5);
   const double turn = std::atan(0.5), cut = 0.2 * std::tan(0.5 * turn);
   EXPECT_NEAR(pair.Travel(kTangent, from, 0.0, 0, to - from, 0.0, 2),
@@ -173,7 +174,7 @@ TEST_F(RigidPairs, SlipRunsOnOverPatches) {
 // A node that slides on a disc from its top by a quarter of a circle at the distance g.
 TEST(RigidPair, OfADiscHasTheClosedForm) {
   const auto disc = std::make_shared<DiscOutside>(Eigen::Vector2d(1.0, 2.0), 0.5);
-  const RigidPair pair(disc, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
+  const RigidPair pair(disc, MovingPlace(PointOfNode(0, 1)), 0.3);
   const Eigen::VectorXd top = Eigen::Vector2d(1.0, 2.75), right = Eigen::Vector2d(1.75, 2.0);
   EXPECT_NEAR(pair.Gap(top, 0.0, 0), 0.25, kRounding);
   EXPECT_NEAR(pair.Gap(right, 0.0, 0), 0.25, kRounding);
@@ -186,7 +187,7 @@ TEST(RigidPair, OfADiscHasTheClosedForm) {
 TEST(RigidPair, PatchesGoRoundAClosedSurface) {
   constexpr double kRadius = 0.5;
   const std::shared_ptr<const Surface> circle = MakeCircle({1.0, 2.0}, kRadius, false);
-  const RigidPair pair(circle, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
+  const RigidPair pair(circle, MovingPlace(PointOfNode(0, 1)), 0.3);
   for (const double turn : {0.3, -0.3}) {
     int patch = 0;
     for (int i = 0; i < 42; ++i) {
@@ -200,7 +201,7 @@ TEST(RigidPair, PatchesGoRoundAClosedSurface) {
 
 TEST(RigidPair, XiIsMeasuredFromTheReference) {
   const RigidPair pair(std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(0.0, 2.0)),
-                       {{0, -1}, {7.0, 1.25}, Eigen::Vector2d::Zero()}, 0.3);
+                       MovingPlace(PointOfNode(0, -1, {7.0, 1.25})), 0.3);
   PortsAt at;
   pair.Evaluate(Eigen::VectorXd::Constant(1, 3.0), 0.0, 0, {0.0, 2.5}, &at);
   EXPECT_EQ(at[kTangent].motion, 0.5);
@@ -215,7 +216,7 @@ TEST(RigidPair, HasSlippedFromItsOriginByTheTotalLawOnly) {
   const auto at = [](double angle) {
     return Eigen::Vector2d(1.0 + 0.6 * std::sin(angle), 2.0 + 0.6 * std::cos(angle));
   };
-  const NodeMotion motion = {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  const MovingPlace motion(PointOfNode(0, 1));
   const RigidPair total(circle, motion, 0.3, Eigen::VectorXd(), at(3.0)), incremental(circle, motion, 0.3);
   for (const double angle : {0.5, 2.9, 3.0, 3.3, 6.0}) {
     const Eigen::VectorXd x = at(angle);

@@ -15,6 +15,7 @@
 #include "contact_path/stability/stability_problem.h"
 #include "contact_path/structure/bar.h"
 #include "support/derivative_checker.h"
+#include "support/points.h"
 #include "support/random.h"
 #include "support/system_derivatives.h"
 
@@ -27,12 +28,12 @@ using Eigen::VectorXd;
 
 constexpr double kEA = 2.0, kRight = 0.9;  // rest length of the string on the right
 constexpr double kExact = 1e-12;
-const SlackBar::End kNode = {{0, 1}, Vector2d::Zero()}, kLeftEnd = {{-1, -1}, {-1.0, 0.0}},
-                    kRightEnd = {{-1, -1}, {1.0, 0.0}};
+const FixedPoint kNode = PointOfNode(0, 1), kLeftEnd = PointOfNode(-1, -1, {-1.0, 0.0}),
+                 kRightEnd = PointOfNode(-1, -1, {1.0, 0.0});
 constexpr Mode kTaut = {static_cast<int>(BarState::kTaut), 0}, kSlack = {static_cast<int>(BarState::kSlack), 0};
 
-SlackBar String(const SlackBar::End& a, const SlackBar::End& b, double rest_length) {
-  return {{a, b}, kEA, rest_length, StrainMeasure::kBiot, BarSense::kTension};
+SlackBar String(const FixedPoint& a, const FixedPoint& b, double rest_length) {
+  return {MovingPlace::Between(a, b), kEA, rest_length, StrainMeasure::kBiot, BarSense::kTension};
 }
 
 // A node at the origin on springs, between strings to (-1, 0), of the length 1, and to (1, 0), of the length 0.9: both
@@ -105,7 +106,7 @@ TEST(SlackBar, IsTheElementWhereItIsTaut) {
   Random random(3);
   for (const StrainMeasure strain : {StrainMeasure::kBiot, StrainMeasure::kGreenLagrange, StrainMeasure::kLogarithmic})
     for (const BarSense sense : {BarSense::kTension, BarSense::kCompression}) {
-      const SlackBar law({SlackBar::End{{0, 1}, {}}, SlackBar::End{{2, 3}, {}}}, 1.7, 0.8, strain, sense);
+      const SlackBar law(MovingPlace::Between(PointOfNode(0, 1), PointOfNode(2, 3)), 1.7, 0.8, strain, sense);
       const BarElement element(1.7, 0.8, strain);
       const double length = sense == BarSense::kTension ? 1.1 : 0.6, angle = random.Number(0.0, 6.0);
       VectorXd u(4), force(4), v = random.Vector(4, -1.0, 1.0);
@@ -142,7 +143,7 @@ TEST(SlackBar, ChainOfStringsMeetsDifferences) {
   scene.loads = {{"q", 1.0, 0.3}};
   scene.bars = {{{"p", "q"}, kEA, 0.0, StrainMeasure::kBiot, BarSense::kTension, ""}};
   const Structure structure(scene);
-  const SlackBar::End p = {{0, 1}, {}}, q = {{2, 3}, {}};
+  const FixedPoint p = PointOfNode(0, 1), q = PointOfNode(2, 3);
   const SlackBar left = String(kLeftEnd, p, 0.6), middle = String(q, p, 0.6), right = String(q, kRightEnd, 0.5);
   Laws laws;
   for (const SlackBar* bar : {&left, &middle, &right}) laws.Add(bar);

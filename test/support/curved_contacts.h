@@ -12,6 +12,7 @@
 #include "contact_path/structure/structure.h"
 #include "support/curved_surfaces.h"
 #include "support/mixed_scene.h"
+#include "support/points.h"
 
 namespace contact_path {
 
@@ -27,9 +28,8 @@ inline ContactPairs CurvedContacts(const Structure& structure) {
   const auto add = [&](const char* name, std::shared_ptr<const Surface> surface, const Eigen::Vector2d& velocity,
                        double friction) {
     const auto node = static_cast<int>(index.Node(name));
-    const NodeMotion motion = {
-        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), velocity};
-    contacts.push_back(std::make_unique<RigidPair>(std::move(surface), motion, friction));
+    contacts.push_back(std::make_unique<RigidPair>(
+        std::move(surface), MovingPlace::SeenFrom(MovedFrame(velocity), structure.PointOf(node)), friction));
   };
   const Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();
   add("b", std::make_shared<DiscOutside>(Eigen::Vector2d(1.4, -0.9), 1.0), {0.3, -0.2}, 0.3);

@@ -5,43 +5,17 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <initializer_list>
+
+#include "contact_path/structure/local_vector.h"
 
 namespace contact_path {
 
-// The most unknowns that move one law, and the most ports of one.
-inline constexpr int kMostLawDofs = 12;
+// The most ports of one law.
 inline constexpr std::size_t kMostPorts = 4;
 
 // By port of one law: 0 beyond the ports that it has.
 using PortReals = std::array<double, kMostPorts>;
 
-// Unknowns that move a law, as numbers into u, ascending. No allocation.
-class LawDofs {
- public:
-  LawDofs() = default;
-  LawDofs(std::initializer_list<int> dofs) {
-    for (const int dof : dofs) push_back(dof);
-  }
-
-  void push_back(int dof) { of_[size_++] = dof; }
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  int operator[](std::size_t k) const { return of_[k]; }
-  const int* begin() const { return of_.data(); }
-  const int* end() const { return of_.data() + size_; }
-
- private:
-  std::array<int, kMostLawDofs> of_{};
-  std::size_t size_ = 0;
-};
-
-// By (dofs, s): the unknowns of the law in their order, then the load factor. No allocation.
-using LawVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostLawDofs + 1, 1>;
-using LawMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostLawDofs + 1, kMostLawDofs + 1>;
-
-// The entries of (u, s) that belong to a law with these dofs. u: may have more entries than dofs.
-LawVector LocalOf(const LawDofs& dofs, const Eigen::Ref<const Eigen::VectorXd>& u, double s);
 // By (dofs, s) of some of the dofs of another list: by all of them, with zeros.
 LawVector Spread(const LawVector& vector, const LawDofs& from, const LawDofs& to);
 LawMatrix Spread(const LawMatrix& matrix, const LawDofs& from, const LawDofs& to);

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_LAW_SLACK_BAR_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "contact_path/law/law.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/structure/place.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -29,13 +29,8 @@ std::string_view ToString(BarState state);
 //   slack:  r = 0, g >= 0
 class SlackBar : public Law {
  public:
-  struct End {
-    std::array<int, 2> dofs = {-1, -1};              // of x and y; -1: held
-    Eigen::Vector2d held = Eigen::Vector2d::Zero();  // positions of what is held [length]
-  };
-
-  // EA > 0 [force], rest_length > 0 [length]; sense: not kBoth.
-  SlackBar(const std::array<End, 2>& ends, double EA, double rest_length, StrainMeasure strain, BarSense sense);
+  // span: from one end to the other. EA > 0 [force], rest_length > 0 [length]; sense: not kBoth.
+  SlackBar(MovingPlace span, double EA, double rest_length, StrainMeasure strain, BarSense sense);
 
   void Evaluate(const Eigen::VectorXd& u, double s, int piece, const PortReals& reference,
                 PortsAt* ports) const override;
@@ -57,13 +52,8 @@ class SlackBar : public Law {
     double value, first, second, third;
   };
   Strain StrainAt(double q) const;
-  Eigen::Vector2d Span(const Eigen::VectorXd& u) const;
 
-  // The share of each of (dofs, s) in the span.
-  using Columns = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostLawDofs + 1>;
-
-  std::array<End, 2> ends_;
-  Columns columns_;
+  MovingPlace span_;
   double rest_length_, compliance_, sense_;
   StrainMeasure strain_;
 };

@@ -13,6 +13,7 @@
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/dof_map.h"
 #include "contact_path/structure/element.h"
+#include "contact_path/structure/place.h"
 #include "contact_path/structure/scene_elements.h"
 
 namespace contact_path {
@@ -42,8 +43,9 @@ class Structure {
   // The unknown of a position (axis 0 = x, 1 = y), free or prescribed; -1 if it is fixed and rests.
   int Dof(int node, int axis) const { return dofs_.Dof(node, Field::kPosition, axis); }
 
-  const Eigen::VectorXd& Start() const { return start_; }                   // u at the start
-  Eigen::Vector2d StartPosition(int node) const;                            // of its components, free or not
+  const Eigen::VectorXd& Start() const { return start_; }  // u at the start
+  Eigen::Vector2d StartPosition(int node) const;           // of its components, free or not
+  FixedPoint PointOf(int node) const;
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
   const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
