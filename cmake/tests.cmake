@@ -133,14 +133,14 @@ contact_path_add_stage(scene NAMES boundary_rules_test can_slide_test cell_test 
   element_names_test expand_test field_test nearest_name_test text_test origin_test quantity_test
   reacting_parts_test read_scene_test request_field_test scaling_test scene_test solid_rules_test
   validate_test violation_test write_scene_test)
-contact_path_add_stage(structure NAMES bar_test beam_test elastica_test material_test solid_test
+contact_path_add_stage(structure NAMES attached_element_test bar_test beam_test elastica_test material_test solid_test
   structure_test)
 contact_path_add_stage(linear NAMES blas_test bordered_solver_test minimum_norm_test out_of_memory_test
   symmetric_factors_test)
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
-contact_path_add_stage(law NAMES slack_bar_test toy_law_test)
+contact_path_add_stage(law NAMES moving_place_test slack_bar_test toy_law_test)
 contact_path_add_stage(contact NAMES contact_pair_test deformable_boundary_test deformable_pair_test
   reach_tracker_test rigid_pair_test scene_contacts_test)
 contact_path_add_stage(equations OPTIMISED NAMES deformable_system_test fixed_mode_system_test nearest_point_test rigid_modes_test)
@@ -156,7 +156,7 @@ if(NOT CONTACT_PATH_SANITIZE)
 endif()
 contact_path_add_stage(response NAMES closed_forms_test contact_pressure_test element_response_test reactions_test)
 contact_path_add_stage(check NAMES answers_test boundary_residuals_test curved_residuals_test residuals_test solid_residuals_test)
-contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_test branch_options_test csv_test
+contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_test bodies_test branch_options_test csv_test
   curved_paths_test curved_random_paths_test curved_scenes_test deformable_random_paths_test deformable_scenes_test
   determinism_test diagnosis_test end_test frames_on_curves_test free_motion_test hard_scenes_test increment_lists_test
   invariance_test jump_paths_test turning_paths_test large_requests_test largest_reaction_test model_size_test model_test

@@ -13,7 +13,7 @@ WIDTH = 130
 TYPES = {'string': 'str', 'float64': 'float', 'int32': 'int', 'bool': 'bool'}
 LISTS = {'string[]': 'Texts', 'float64[]': 'Numbers', 'int32[]': 'Integers', 'bool[]': 'Truths'}
 DEFAULTS = {'str': "''", 'float': '0.0', 'int': '0', 'bool': 'False'}
-METHODS = {'program': 'stage', 'options': 'options'}  # all others are named by their singular
+METHODS = {'program': 'stage', 'options': 'options', 'bodies': 'body'}  # all others are named by their singular
 OWN = ('scene', 'via', 'progress', 'bag', 'node')  # of trace(), besides the options
 FIRST = ('name', 'nodes')  # given without keyword by the method of a new kind of part
 

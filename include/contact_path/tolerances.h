@@ -87,6 +87,13 @@ inline constexpr double kDependent = 1e-9;
 // equations are singular, and counts as large as this: kDependentColumn then is kUnitComponent / 10 of these entries.
 inline constexpr double kFadingEquation = 1e-3;
 
+// ----- rigid bodies -----
+
+// Scaled motion per scaled force by which contacts of rigid bodies give way: of reactions that equilibrium does not
+// determine, the least norm comes near. The root of rounding: what rounding of the coordinates leaves of such reactions
+// is as much as the bodies give way.
+inline constexpr double kRigidCompliance = 1e-8;
+
 // ----- acceptance -----
 
 // Largest residual, by check/, of an exact point, and of a regularised one, whose residuals are of the order of the

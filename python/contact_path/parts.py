@@ -25,7 +25,7 @@ Function = TypeVar('Function', bound=Callable[..., Any])
 
 #: Lists of parts of a scene, in the order of scene files. A method of Parts or Loading for each, named by its singular.
 LISTS = ('nodes', 'bars', 'superelements', 'beams', 'materials', 'solids', 'groups', 'surfaces', 'loads', 'obstacles', 'contacts',
-         'supports', 'support_motions', 'obstacle_motions')
+         'supports', 'support_motions', 'obstacle_motions', 'bodies')
 
 
 def named(function: Function) -> Function:
@@ -54,7 +54,7 @@ class Loading:
 
     @named
     def load(self, *, node: str = '', group: str = '', surface: str = '', fx: float = 0.0, fy: float = 0.0, moment: float = 0.0,
-             px: float = 0.0, py: float = 0.0, constant: bool = False) -> None:
+             px: float = 0.0, py: float = 0.0, constant: bool = False, body: str = '') -> None:
         """Dead load on a node or on each node of a group: fx, fy [force], moment [force length], counterclockwise.
 
         px, py: traction on the axis of the beam `group`, or on a surface [force/length]. constant: not times the load factor.
@@ -62,7 +62,8 @@ class Loading:
         self._add('loads', locals())
 
     @named
-    def support_motion(self, node: str = '', *, dx: float = 0.0, dy: float = 0.0, rotation: float = 0.0, group: str = '') -> None:
+    def support_motion(self, node: str = '', *, dx: float = 0.0, dy: float = 0.0, rotation: float = 0.0, group: str = '',
+                       body: str = '') -> None:
         """How far a support, or each node of a group, moves by load factor 1: dx, dy [length], rotation [rad]."""
         self._add('support_motions', locals())
 
@@ -94,7 +95,7 @@ class Parts(Loading):
 
     @named
     def node(self, name: str, *, x: float = 0.0, y: float = 0.0, fixed_x: bool = False, fixed_y: bool = False,
-             fixed_rotation: bool = False) -> None:
+             fixed_rotation: bool = False, body: str = '') -> None:
         """A point, initially at x, y [length]; fixed_...: held by a support."""
         self._add('nodes', locals())
 
@@ -156,6 +157,12 @@ class Parts(Loading):
         """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group.
         friction: coefficient with the surface [-]; an obstacle has its own."""
         self._add('contacts', locals())
+
+    @named
+    def body(self, name: str, *, x: float = 0.0, y: float = 0.0, fixed_x: bool = False, fixed_y: bool = False,
+              fixed_rotation: bool = False) -> None:
+        """One of the bodies: x [length]; y [length]."""
+        self._add('bodies', locals())
 
     @named
     def support(self, *, node: str = '', group: str = '', fixed_x: bool = False, fixed_y: bool = False,

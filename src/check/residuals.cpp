@@ -28,6 +28,9 @@ using check::Vector;
 // Force, of the stiffness at a node times L: the rounding of coordinates makes forces of 1e-11 of it.
 constexpr Real kStiffForce = 1e-4L;
 
+// Contacts of rigid bodies give way, so that reactions are unique: by this motion over L per force over F.
+constexpr Real kGive = 1e-8L;
+
 // The larger of the two. What is no finite double counts as infinite, so that NaN never passes as small.
 double Worst(double worst, Real value) {
   if (!(value <= static_cast<Real>(std::numeric_limits<double>::max()))) return std::numeric_limits<double>::infinity();
@@ -53,6 +56,12 @@ void RequireSize(const std::vector<double>& values, std::size_t size, const char
 
 // The scene with all names resolved; vectors in the order of the scene's lists.
 struct ResidualCheck::Prepared {
+  // A node, its body, and the place of the node in the body.
+  struct AttachedNode {
+    std::size_t node, body;
+    Real x, y;
+    bool turns = false;  // a beam turns it
+  };
   struct PreparedLoad {
     std::size_t node = 0;
     Real fx = 0.0L, fy = 0.0L, moment = 0.0L;
@@ -66,8 +75,15 @@ struct ResidualCheck::Prepared {
       free.push_back(!node.fixed_x);
       free.push_back(!node.fixed_y);
     }
-    if (!scene.beams.empty()) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+      if (const Node& node = scene.nodes[i]; IsAttached(node)) {
+        const std::size_t body = index.at(node.body);
+        const Node& at = scene.nodes[body];
+        attached.push_back({i, body, static_cast<Real>(node.x) - at.x, static_cast<Real>(node.y) - at.y});
+      }
+    if (HasRotations(scene)) {
       const std::vector<bool> turn = NodesThatTurn(scene);
+      for (AttachedNode& at : attached) at.turns = turn[at.node];
       for (std::size_t i = 0; i < turn.size(); ++i) free.push_back(turn[i] && !scene.nodes[i].fixed_rotation);
       start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
     }
@@ -78,6 +94,8 @@ struct ResidualCheck::Prepared {
     std::vector<Real> stiffness(scene.nodes.size(), 0.0L);
     for (const auto& element : elements)
       for (const std::size_t node : element->Nodes()) stiffness[node] += element->Stiffness();
+    for (const AttachedNode& at : attached) stiffness[at.body] += stiffness[at.node];
+    for (const AttachedNode& at : attached) stiffness[at.node] = stiffness[at.body];
     for (const Real at_node : stiffness) largest_stiffness = std::max(largest_stiffness, at_node);
     for (const Real at_node : stiffness) units.push_back(std::max<Real>(scaling.force, kStiffForce * at_node * size));
     // Summed by node, so that what cancels does so before the load factor makes it large.
@@ -100,6 +118,7 @@ struct ResidualCheck::Prepared {
     num_touched = touched.size();
     touched_by = BoundaryOfContacts(scene, touched);
     contacts = check::MakeContacts(scene, index, configuration.slip_origins);
+    for (const auto& contact : contacts) gives.push_back(IsAttached(scene.nodes[contact->Node()]));
     std::vector<check::ContactPlace> places;
     for (std::size_t i = 0; i < contacts.size(); ++i) places.push_back({contacts[i]->Node(), touched_by[i]});
     contact_edges = check::ContactEdges(elements, places);
@@ -127,8 +146,26 @@ struct ResidualCheck::Prepared {
 
   check::PlacedState Placed(const CheckedState& state) const { return {state, boundaries}; }
 
-  // phi - T r on each component: internal forces less loads less reactions.
-  std::vector<Real> Unbalance(const CheckedState& state) const {
+  Vector PlaceOf(const AttachedNode& at, const CheckedState& state) const {
+    const Real turn = state.rotations[at.body], c = std::cos(turn), s = std::sin(turn);
+    return {state.positions[2 * at.body] + c * at.x - s * at.y, state.positions[2 * at.body + 1] + s * at.x + c * at.y};
+  }
+  // With attached nodes where their bodies have them.
+  CheckedState Settled(CheckedState state) const {
+    for (const AttachedNode& at : attached) {
+      const Vector place = PlaceOf(at, state);
+      state.positions[2 * at.node] = static_cast<double>(place.x);
+      state.positions[2 * at.node + 1] = static_cast<double>(place.y);
+      state.rotations[at.node] = at.turns ? state.rotations[at.body] : start[num_positions + at.node];
+    }
+    return state;
+  }
+
+  // phi - T r on each component: internal forces less loads less reactions. What acts on an attached node acts on its
+  // body.
+  std::vector<Real> Unbalance(const CheckedState& given) const {
+    const CheckedState settled = attached.empty() ? CheckedState() : Settled(given);
+    const CheckedState& state = attached.empty() ? given : settled;
     const std::vector<double> values = check::ValuesOf(state.positions, state.rotations);
     std::vector<Real> forces(values.size(), 0.0L);
     for (const auto& element : elements) element->AddForce(values, &forces);
@@ -143,7 +180,19 @@ struct ResidualCheck::Prepared {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
       contacts[i]->AddForces(placed, state.rn[i], state.rt[i], -1.0L, &forces);
     }
+    for (const AttachedNode& at : attached) GiveToBody(at, values, &forces);
     return forces;
+  }
+
+  // Takes the forces on an attached node to its body.
+  void GiveToBody(const AttachedNode& at, const std::vector<double>& values, std::vector<Real>* forces) const {
+    std::vector<Real>& f = *forces;
+    const Real fx = std::exchange(f[2 * at.node], 0.0L), fy = std::exchange(f[2 * at.node + 1], 0.0L);
+    const Real x = static_cast<Real>(values[2 * at.node]) - values[2 * at.body],
+               y = static_cast<Real>(values[2 * at.node + 1]) - values[2 * at.body + 1];
+    f[2 * at.body] += fx;
+    f[2 * at.body + 1] += fy;
+    f[num_positions + at.body] += x * fy - y * fx + std::exchange(f[num_positions + at.node], 0.0L);
   }
 
   void RequireSizes(const CheckedState& state) const {
@@ -154,9 +203,10 @@ struct ResidualCheck::Prepared {
   }
 
   Scaling scaling;
-  std::size_t num_positions;      // the first values, x0, y0, x1, ...; rotations by node follow where there are beams
-  std::vector<double> start;      // values at load factor 0
-  std::vector<bool> free;         // the same components
+  std::size_t num_positions;  // the first values, x0, y0, x1, ...; rotations by node follow where there are beams
+  std::vector<double> start;  // values at load factor 0
+  std::vector<bool> free;     // the same components
+  std::vector<AttachedNode> attached;
   std::vector<Real> units;        // by node: what unbalanced forces are measured in
   Real largest_stiffness = 0.0L;  // of all nodes, as LargestStiffness()
   std::vector<double> rates;      // of the fixed ones, per unit of the load factor
@@ -164,6 +214,7 @@ struct ResidualCheck::Prepared {
   std::vector<PreparedLoad> loads;
   std::vector<std::unique_ptr<const check::Contact>> contacts;
   std::vector<Real> contact_units;
+  std::vector<bool> gives;  // by contact: of a body
   std::vector<SupportedNode> supports;
   std::vector<std::size_t> touched_by;  // by contact: which of TouchedBoundaries()
   std::size_t num_touched = 0;
@@ -213,18 +264,29 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const Real place = scene.start[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
     residuals.support = Worst(residuals.support, std::abs(values[i] - place) * length / scaling.length);
   }
+  if (!scene.attached.empty()) {
+    const CheckedState settled = scene.Settled(now);
+    for (std::size_t i = 0; i < now.positions.size(); ++i)
+      residuals.support = Worst(residuals.support,
+                                std::abs(static_cast<Real>(now.positions[i]) - settled.positions[i]) / scaling.length);
+    for (std::size_t i = 0; i < now.rotations.size(); ++i)
+      residuals.support =
+          Worst(residuals.support, std::abs(static_cast<Real>(now.rotations[i]) - settled.rotations[i]));
+  }
   const check::PlacedState from = scene.Placed(before), to = scene.Placed(now);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const check::Contact& contact = *scene.contacts[i];
     const bool without_reaction = now.rn[i] == 0.0 && now.rt[i] == 0.0;
     if (without_reaction && contact.SurelyOpen(to)) continue;
-    const Real gap = contact.Gap(to) / scaling.length;
+    const Real give = scene.gives[i] ? kGive / scaling.force : 0.0L;
+    const Real gap = contact.Gap(to) / scaling.length + give * now.rn[i];
     if (without_reaction) {  // then only a gap that is closed too far breaks a rule
       residuals.penetration = Worst(residuals.penetration, -gap);
       residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));
       continue;
     }
-    const Real slip = contact.LawfulSlip(from, to) / scaling.length;
+    const Real slip =
+        contact.LawfulSlip(from, to) / scaling.length + give * (static_cast<Real>(now.rt[i]) - before.rt[i]);
     const Real unit = scene.contact_units[i];
     const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
     const Real bound = contact.Friction() * std::max(rn, 0.0L);
@@ -319,8 +381,14 @@ double ResidualCheck::GapPastEnd(std::size_t contact, const CheckedState& state)
   return static_cast<double>(prepared_->contacts[contact]->GapPastEnd(prepared_->Placed(state)));
 }
 
+double ResidualCheck::Give(std::size_t contact) const {
+  const Scaling& scaling = prepared_->scaling;
+  return prepared_->gives[contact] ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
+}
+
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
-  return static_cast<double>(prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to)));
+  const Real slip = prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to));
+  return static_cast<double>(slip) + Give(contact) * (to.rt[contact] - from.rt[contact]);
 }
 
 double ResidualCheck::TotalSlip(std::size_t contact, const CheckedState& state) const {
@@ -345,6 +413,11 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
     bounds[load.node].x += static_cast<double>(std::abs(factor * load.fx));
     bounds[load.node].y += static_cast<double>(std::abs(factor * load.fy));
   }
+  for (const Prepared::AttachedNode& at : scene.attached)
+    for (double check::StiffnessBound::*const part :
+         {&check::StiffnessBound::x, &check::StiffnessBound::y, &check::StiffnessBound::any})
+      bounds[at.body].*part += bounds[at.node].*part;
+  for (const Prepared::AttachedNode& at : scene.attached) bounds[at.node] = bounds[at.body];
   CheckedState start;
   start.positions = scene.start;
   const check::PlacedState placed = scene.Placed(start);

@@ -69,7 +69,7 @@ class Responder {
   // Throws std::invalid_argument where the increment is none of the scene.
   Json Of(Increment increment) {
     RequireSize(increment.positions.size(), 2 * Request().scene.nodes.size(), "positions");
-    RequireSize(increment.rotations.size(), Request().scene.beams.empty() ? 0 : Request().scene.nodes.size(),
+    RequireSize(increment.rotations.size(), HasRotations(Request().scene) ? Request().scene.nodes.size() : 0,
                 "rotations");
     RequireSize(increment.contacts.size(), Request().scene.contacts.size(), "contacts");
     SetStage(static_cast<std::size_t>(std::max(increment.stage, 1) - 1));

@@ -8,8 +8,6 @@
 namespace contact_path {
 namespace {
 
-constexpr PortRule kHeld = {PortRule::Kind::kHeld, 0.0, 0.0};
-
 LimitRule OfMotion(ContactLimit limit, LimitRule::Of of, std::size_t port, double sign, ContactState next) {
   LimitRule rule;
   rule.id = NumberOf(limit);
@@ -41,6 +39,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   // NormalForceUnit() is of these traits.
   SetLaw(traits, {});
   const double unit = ForceUnit();
+  const PortRule held = {PortRule::Kind::kHeld, 0.0, surface_traits.compliance};
   const LimitRule bears = OfForces(ContactLimit::kNormalReaction, {1.0, 0.0}, NormalForceUnit(), ContactState::kOpen);
   const auto with_ends = [&](ContactState state, std::vector<LimitRule> limits) {
     if (HasPatches() && !Seamless())
@@ -53,7 +52,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   const auto rule_of = [&](ContactState state) -> StateRule& { return states[static_cast<std::size_t>(state)]; };
 
   StateRule& stick = rule_of(ContactState::kStick);
-  stick.ports = {kHeld, kHeld};
+  stick.ports = {held, held};
   stick.limits = {bears, OfForces(ContactLimit::kConePlus, {mu, 1.0}, unit, ContactState::kSlipPlus),
                   OfForces(ContactLimit::kConeMinus, {mu, -1.0}, unit, ContactState::kSlipMinus)};
   stick.held = NumberOf(ContactState::kStick);
@@ -61,7 +60,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   for (const bool plus : {true, false}) {
     const ContactState state = plus ? ContactState::kSlipPlus : ContactState::kSlipMinus;
     StateRule& slip = rule_of(state);
-    slip.ports = {kHeld, PortRule{PortRule::Kind::kFollows, plus ? -mu : mu, 0.0}};
+    slip.ports = {held, PortRule{PortRule::Kind::kFollows, plus ? -mu : mu, 0.0}};
     const LimitRule slides = traits.holonomic ? OfMotion(ContactLimit::kTotalSlip, LimitRule::Of::kMotion, kTangent,
                                                          plus ? 1.0 : -1.0, ContactState::kStick)
                                               : OfMotion(ContactLimit::kSlip, LimitRule::Of::kMotionRate, kTangent,
@@ -71,7 +70,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
     slip.symmetric = false;
   }
   StateRule& closed = rule_of(ContactState::kClosed);
-  closed.ports = {kHeld};
+  closed.ports = {held};
   closed.limits = with_ends(ContactState::kClosed, {bears});
   closed.held = NumberOf(ContactState::kClosed);
   StateRule& open = rule_of(ContactState::kOpen);

@@ -127,7 +127,7 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
   traits.moves[kNormal].set();
   traits.moves[kTangent].set();
   SurfaceTraits of_surface;
-  of_surface.has_patches = true;
+  of_surface.has_patches = of_surface.deformable = true;
   // The foot moves by no more than the largest motion of a control node.
   traits.largest_reach_rate = std::sqrt(2.0);
   if (force_bounds.size() > 0) {

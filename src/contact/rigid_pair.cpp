@@ -12,12 +12,15 @@
 namespace contact_path {
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
-                     const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin)
+                     const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin,
+                     double compliance)
     : surface_(std::move(surface)), place_(std::move(place)) {
   Traits traits;
   SurfaceTraits of_surface;
   traits.largest_ratio = friction;
   traits.curved = !surface_->Flat() || !place_.Affine();
+  traits.compliant = compliance > 0.0;
+  of_surface.compliance = compliance;
   of_surface.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
   of_surface.seamless = surface_->Seamless();
   const XiRange range = surface_->Range();
@@ -25,6 +28,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
   if (slip_origin)
     of_surface.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
   traits.dofs = place_.Dofs();
+  traits.couples = !place_.Affine() && traits.dofs.size() > 2;  // unknowns of a body
   const auto last = static_cast<Eigen::Index>(traits.dofs.size());
   if (traits.curved) {
     // The foot moves along the surface, where both components of the node have a share in gap and xi.

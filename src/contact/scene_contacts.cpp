@@ -13,6 +13,7 @@
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/surface.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -94,13 +95,15 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     const Obstacle& obstacle = scene.obstacles[at];
     const MovingFrame& frame = obstacles[at].frame;
     const FixedPoint point = structure.PointOf(node);
-    const bool can_slide =
-        CanSlide(point.frame.origin[0].dof >= 0, point.frame.origin[1].dof >= 0, obstacle, frame.angle.rate != 0.0);
+    const bool of_body = structure.AttachmentOf(node) != nullptr, turns = point.frame.angle.dof >= 0;
+    const bool can_slide = CanSlide(turns || point.frame.origin[0].dof >= 0, turns || point.frame.origin[1].dof >= 0,
+                                    obstacle, frame.angle.rate != 0.0);
     std::optional<Eigen::Vector2d> slip_origin;
     if (const std::size_t k = 2 * contacts.size(); can_slide && !slip_origins.empty())
       slip_origin = Eigen::Vector2d(slip_origins[k], slip_origins[k + 1]);
     contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, MovingPlace::SeenFrom(frame, point),
-                                                   can_slide ? obstacle.friction : 0.0, force_bounds, slip_origin));
+                                                   can_slide ? obstacle.friction : 0.0, force_bounds, slip_origin,
+                                                   of_body ? tolerances::kRigidCompliance : 0.0));
   }
   return contacts;
 }

@@ -91,6 +91,7 @@ void FixedModeSystem::NumberEquations() {
   };
   curved_ = some([](const Law& law) { return law.Curved(); });
   couples_ = some([](const Law& law) { return law.Couples(); });
+  gives_ = some([](const Law& law) { return law.Compliant() && !law.Elastic(); });
 }
 
 template <typename Emit>
@@ -296,6 +297,10 @@ Eigen::VectorXd FixedModeSystem::Counted(const Eigen::VectorXd& change) const {
     const double along = motion.normalized().dot(force);
     counted.segment<2>(first_support_ + static_cast<Eigen::Index>(k)) << along, 0.0;
   }
+  if (gives_)
+    for (const MotionEquation& of : motions_)
+      if (of.compliance != 0.0 && !laws_[of.motion.law].Elastic())
+        counted[UnknownOf(of.motion.law, of.motion.port)] *= of.compliance;
   return counted;
 }
 

@@ -61,8 +61,17 @@ int Law::AllHeld() const {
   return static_cast<int>(std::find_if(states_.begin(), states_.end(), all) - states_.begin());
 }
 
+PortReals Law::ReferenceOf(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const {
+  PortReals reference = ReferenceAt(u, s, mode.piece);
+  if (!Compliant() || Elastic()) return reference;
+  const StateRule& held = In(In(mode).held);
+  for (std::size_t p = 1; p < NumPorts(); ++p) reference[p] += held.ports[p].compliance * forces[p];
+  return reference;
+}
+
 PortReals Law::CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const {
   PortReals forces{};
+  if (!Elastic()) return forces;
   for (std::size_t p = 0; p < NumPorts(); ++p)
     if (const PortRule& port = In(mode).ports[p]; port.Holds() && port.compliance != 0.0)
       forces[p] = -Motion(p, u, s, mode.piece, {}) / port.compliance;
@@ -71,7 +80,8 @@ PortReals Law::CompliantForces(const Eigen::VectorXd& u, double s, const Mode& m
 
 double Law::Energy(const Mode& mode, const PortReals& forces) const {
   double energy = 0.0;
-  for (std::size_t p = 0; p < NumPorts(); ++p) energy += 0.5 * In(mode).ports[p].compliance * forces[p] * forces[p];
+  for (std::size_t p = 0; Elastic() && p < NumPorts(); ++p)
+    energy += 0.5 * In(mode).ports[p].compliance * forces[p] * forces[p];
   return energy;
 }
 

@@ -26,7 +26,7 @@ void Laws::Put(const PortReals& values, std::size_t i, Eigen::VectorXd* by_port)
 Eigen::VectorXd Laws::ReferencesAt(const PathPoint& point) const {
   Eigen::VectorXd references(num_ports_);
   for (std::size_t i = 0; i < laws_.size(); ++i)
-    Put(laws_[i]->ReferenceAt(point.u, point.s, point.modes[i].piece), i, &references);
+    Put(laws_[i]->ReferenceOf(point.u, point.s, point.modes[i], Of(point.forces, i)), i, &references);
   return references;
 }
 

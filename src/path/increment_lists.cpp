@@ -25,7 +25,7 @@ void LongLists::Add(const LongLists& others) {
 
 IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& index)
     : nodes_(request.scene.nodes.size()),
-      rotations_(request.scene.beams.empty() ? 0 : nodes_),
+      rotations_(HasRotations(request.scene) ? nodes_ : 0),
       contacts_(request.scene.contacts.size()),
       supports_(SupportedNodes(request.scene).size()),
       boundaries_(TouchedBoundaries(request.scene).size()),

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "contact_path/contact/scene_contacts.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -103,16 +104,20 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
   CheckedState state;
   state.load_factor = point.s * scaling.load_factor;
   state.positions = configuration.start;
-  if (!scene.beams.empty()) state.rotations = configuration.start_rotations;
-  for (const DofMap::Component& from : structure.Dofs().Components())
-    if (from.dof < 0) {
+  if (HasRotations(scene)) state.rotations = configuration.start_rotations;
+  const Eigen::VectorXd values = structure.AllValues(point.u);
+  Eigen::Index k = 0;
+  for (const DofMap::Component& from : structure.Dofs().Components()) {
+    const double value = values[k++];
+    if (from.dof < 0 && structure.AttachmentOf(from.node) == nullptr) {
       continue;
     } else if (from.field == Field::kRotation) {
-      state.rotations[static_cast<std::size_t>(from.node)] = point.u[from.dof];
+      state.rotations[static_cast<std::size_t>(from.node)] = value;
     } else {
       state.positions[PositionIndex(from)] =
-          point.u[from.dof] * UnitOf(from.field, scaling.length) + origin[static_cast<std::size_t>(from.component)];
+          value * UnitOf(from.field, scaling.length) + origin[static_cast<std::size_t>(from.component)];
     }
+  }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     state.rn.push_back(NormalReaction(point, i) * scaling.force);
     state.rt.push_back(TangentialReaction(point, i) * scaling.force);

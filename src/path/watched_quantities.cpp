@@ -27,6 +27,15 @@ int UnknownOf(const Model& model, const Quantity& quantity) {
                                     component);
 }
 
+Function OfAttachedNode(const Model& model, const Quantity& quantity) {
+  const FixedPoint point = model.structure.PointOf(static_cast<int>(quantity.part));
+  if (quantity.kind == Quantity::Kind::kRotation)
+    return [angle = point.frame.angle](const Eigen::VectorXd& x) { return angle.dof >= 0 ? x[angle.dof] : angle.held; };
+  return [place = MovingPlace(point), axis = quantity.kind == Quantity::Kind::kY ? 1 : 0](const Eigen::VectorXd& x) {
+    return place.At(x, 0.0)[axis];
+  };
+}
+
 Function OfContact(const Model& model, const Quantity& quantity, const FixedModeSystem& system) {
   const std::size_t i = quantity.part;
   if (quantity.kind != Quantity::Kind::kGap)
@@ -105,6 +114,8 @@ void Add(const Model& model, const TraceRequest& request, std::size_t stage, con
     target.of = [&setting, unit, nd = model.structure.NumDofs()](const Eigen::VectorXd& x) {
       return setting.At(x.head(nd), x[nd]) / unit;
     };
+  else if (quantity.IsOfNode() && model.structure.AttachmentOf(static_cast<int>(quantity.part)) != nullptr)
+    target.of = OfAttachedNode(model, quantity);
   else if (quantity.IsOfNode())
     target.unknown = UnknownOf(model, quantity);
   else if (quantity.IsOfObstacle() && Moves(model.scene, quantity.part))

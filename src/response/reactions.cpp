@@ -1,6 +1,7 @@
 #include "contact_path/response/reactions.h"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 
 #include "contact_path/contact/scene_contacts.h"
@@ -42,43 +43,42 @@ ReactionProblem::ReactionProblem(const Scene& scaled, const SceneIndex& index, c
   for (const BoundarySurface& surface : scaled.surfaces) first_nodes_.push_back(index.Node(surface.nodes.front()));
 }
 
-Eigen::Vector2d ReactionProblem::PlaceOf(std::size_t node, const Eigen::VectorXd& values) const {
-  const auto number = static_cast<int>(node);
-  return {values[released_.Dof(number, 0)], values[released_.Dof(number, 1)]};
+Eigen::Vector2d ReactionProblem::PlaceOf(std::size_t node, const Eigen::VectorXd& u) const {
+  return MovingPlace(released_.PointOf(static_cast<int>(node))).At(u, 0.0);
 }
 
-Eigen::Vector2d ReactionProblem::Centre(const TouchedBoundary& boundary, const Eigen::VectorXd& values,
-                                        double s) const {
-  if (boundary.is_surface) return PlaceOf(first_nodes_[boundary.place], values);
+Eigen::Vector2d ReactionProblem::Centre(const TouchedBoundary& boundary, const Eigen::VectorXd& u, double s) const {
+  if (boundary.is_surface) return PlaceOf(first_nodes_[boundary.place], u);
   const MovingPoint& point = points_[boundary.place];
   return point.about + Eigen::Rotation2Dd(point.turn * s) * (point.at - point.about) + s * point.velocity;
 }
 
 Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& point) const {
+  const Eigen::VectorXd u = released_.UnknownsOf(values);
   Reactions reactions;
   reactions.boundaries.resize(boundaries_.size());
   Eigen::VectorXd missing(released_.NumDofs());  // phi - s f - f_constant - T r
-  released_.InternalForce(values, missing);
+  released_.InternalForce(u, missing);
   missing -= point.s * released_.ReferenceLoad() + released_.ConstantLoad();
   PortsAt at;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const double rn = NormalReaction(point, i), rt = TangentialReaction(point, i);
     if (rn == 0.0 && rt == 0.0) continue;
-    contacts_[i]->Evaluate(values, point.s, point.modes[i].piece, {}, &at);
-    const auto number = static_cast<int>(nodes_[i]);
+    contacts_[i]->Evaluate(u, point.s, point.modes[i].piece, {}, &at);
+    const std::array<Coordinate, 2> node = released_.PointOf(static_cast<int>(nodes_[i])).frame.origin;
     Eigen::Vector2d on_node = Eigen::Vector2d::Zero();
     for (std::size_t j = 0; j < at.dofs.size(); ++j) {
       const auto entry = static_cast<Eigen::Index>(j);
       const double force = rn * at[kNormal].gradient[entry] + rt * at[kTangent].factor * at[kTangent].gradient[entry];
       missing[at.dofs[j]] -= force;
       for (const int axis : {0, 1})
-        if (at.dofs[j] == released_.Dof(number, axis)) on_node[axis] = force;
+        if (at.dofs[j] == node[static_cast<std::size_t>(axis)].dof) on_node[axis] = force;
     }
     Resultant& sum = reactions.boundaries[boundary_of_[i]];
     sum.rx += scaling_.force * on_node.x();
     sum.ry += scaling_.force * on_node.y();
     sum.rm += scaling_.force * scaling_.length *
-              Moment(PlaceOf(nodes_[i], values) - Centre(boundaries_[boundary_of_[i]], values, point.s), on_node);
+              Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node);
   }
   for (const SupportedNode& support : supports_) {
     const auto number = static_cast<int>(support.node);

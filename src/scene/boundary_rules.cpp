@@ -40,6 +40,9 @@ double RadiusToTheLeft(const Eigen::Vector2d& before, const Eigen::Vector2d& aft
 void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& contact, const Node& node,
                                  const BoundarySurface& surface, double length) {
   const Judged& judged = Judge(surface);
+  if (IsAttached(node))
+    return checker_.Add(path.Key("node"), node.name,
+                        "must not move with a body: nodes of bodies may touch obstacles, not surfaces");
   if (!judged.sound) return;
   const AdmissiblePatches patches = PatchesFor(node.name, surface, judged.places, judged.across);
   if (patches.None())
@@ -73,6 +76,11 @@ const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface
                                 [&](const std::string& name) { return CanMove(*checker_.KnownNode(name)); });
   const KeyPath path = kSurfaces[static_cast<std::size_t>(&surface - scene_.surfaces.data())];
   judged.sound = CheckEdges(path, surface) && CheckBends(path, surface);
+  for (std::size_t i = 0; i < surface.nodes.size(); ++i)
+    if (const Node& node = *checker_.KnownNode(surface.nodes[i]); IsAttached(node)) {
+      judged.sound = false;
+      checker_.Add(path.Key("nodes")[i], node.name, "must not move with a body where contacts touch the surface");
+    }
   for (const std::string& name : surface.nodes) {
     const Node& node = *checker_.KnownNode(name);
     judged.places.emplace_back(node.x, node.y);

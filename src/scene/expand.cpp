@@ -166,6 +166,13 @@ void ForEachNode(Part part, const Groups& groups, Add&& add) {
   }
 }
 
+// A load or a motion of a body is one of its node.
+template <typename Part>
+Part OnNode(Part part) {
+  if (!part.body.empty()) part.node = std::exchange(part.body, {});
+  return part;
+}
+
 Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* contacts) {
   return ExpandList(contacts, [&](const ContactCandidate& contact, auto&& add) {
     const BoundarySurface* const surface = groups.FindSurface(contact.surface);
@@ -180,9 +187,10 @@ Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* conta
 template <typename Loading>
 void ExpandLoading(const Groups& groups, Loading* loading, Expansion* expansion) {
   expansion->loads.push_back(
-      ExpandList(&loading->loads, [&](const Load& load, auto&& add) { ExpandLoad(load, groups, add); }));
-  expansion->motions.push_back(ExpandList(
-      &loading->support_motions, [&](const SupportMotion& motion, auto&& add) { ForEachNode(motion, groups, add); }));
+      ExpandList(&loading->loads, [&](const Load& load, auto&& add) { ExpandLoad(OnNode(load), groups, add); }));
+  expansion->motions.push_back(ExpandList(&loading->support_motions, [&](const SupportMotion& motion, auto&& add) {
+    ForEachNode(OnNode(motion), groups, add);
+  }));
 }
 
 // Of an expanded scene but for its supports.
@@ -227,8 +235,13 @@ bool TurnsNode(const Beam& beam, std::size_t place) {
   return !(place == 0 && beam.hinged.front()) && !(place + 1 == beam.nodes.size() && beam.hinged.back());
 }
 
+bool HasRotations(const Scene& scene) {
+  return !scene.beams.empty() || !scene.bodies.empty() || std::any_of(scene.nodes.begin(), scene.nodes.end(), IsBody);
+}
+
 std::vector<bool> NodesThatTurn(const Scene& scene) {
-  std::vector<bool> turn(scene.nodes.size(), false);
+  std::vector<bool> turn;
+  for (const Node& node : scene.nodes) turn.push_back(IsBody(node));
   if (scene.beams.empty()) return turn;
   std::unordered_map<std::string_view, std::size_t> places;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) places.emplace(scene.nodes[i].name, i);
@@ -239,8 +252,7 @@ std::vector<bool> NodesThatTurn(const Scene& scene) {
   return turn;
 }
 
-void ExpandBeams(Scene* scene) {
-  if (scene->beams.empty()) return;
+void ExpandParts(Scene* scene) {
   std::unordered_map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < scene->nodes.size(); ++i) places.emplace(scene->nodes[i].name, i);
   for (std::size_t k = 0; k < scene->beams.size(); ++k) {
@@ -259,13 +271,15 @@ void ExpandBeams(Scene* scene) {
     nodes.push_back(second.name);
     beam.nodes = std::move(nodes);
   }
+  for (const RigidBody& body : std::exchange(scene->bodies, {}))
+    scene->nodes.push_back({body.name, body.x, body.y, body.fixed_x, body.fixed_y, body.fixed_rotation, body.name});
 }
 
 Expansion Expand(const TraceRequest& request) {
   Expansion expansion;
   expansion.request = request;
   Scene& scene = expansion.request.scene;
-  ExpandBeams(&scene);
+  ExpandParts(&scene);
   FixNodes(&scene);
   const Groups groups(scene);
   expansion.contacts = ExpandContacts(groups, &scene.contacts);
@@ -284,8 +298,8 @@ bool NeedsExpansion(const TraceRequest& request) {
                        [](const Load& load) { return !load.surface.empty() || load.px != 0.0 || load.py != 0.0; });
   };
   const Scene& scene = request.scene;
-  return !scene.beams.empty() || !scene.groups.empty() || !scene.surfaces.empty() || !scene.supports.empty() ||
-         any_in(scene) || any_group(scene.contacts) ||
+  return !scene.beams.empty() || !scene.bodies.empty() || !scene.groups.empty() || !scene.surfaces.empty() ||
+         !scene.supports.empty() || any_in(scene) || any_group(scene.contacts) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(),
                      [](const ContactCandidate& contact) { return contact.OnSurface(); }) ||
          std::any_of(request.program.begin(), request.program.end(), any_in);

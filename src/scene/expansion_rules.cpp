@@ -82,6 +82,18 @@ class BeamRules {
   const Scene& scene_;
 };
 
+void CheckBodies(Checker* checker) {
+  const Scene& scene = checker->GetScene();
+  const KeyPath list = kScene.Key("bodies");
+  std::unordered_set<std::string> earlier;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const RigidBody& body = scene.bodies[i];
+    checker->CheckFields(list[i], body, &earlier);
+    if (checker->KnownNode(body.name) != nullptr)
+      checker->Add(list[i].Key("name"), body.name, "must not be the name of a node, too");
+  }
+}
+
 class GroupRules {
  public:
   explicit GroupRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}
@@ -122,6 +134,15 @@ class GroupRules {
     for (const Group& known : scene_.groups) nearest.Offer(known.name);
     for (const Beam& known : scene_.beams) nearest.Offer(known.name);
     checker_.Add(path.Key("group"), group, "must name a group or a beam of the scene" + nearest.Question());
+  }
+
+  template <typename Part>
+  void CheckBody(const KeyPath& path, const Part& part) {
+    if (part.body.empty()) return;
+    for (const auto& [name, value] : {std::pair("node", part.node), std::pair("group", part.group)})
+      if (!value.empty()) checker_.Add(path.Key(name), value, "must be left out where there is a body");
+    const Node* const node = checker_.KnownNode(part.body);
+    if (node == nullptr || !IsBody(*node)) checker_.Add(path.Key("body"), part.body, "must name a body of the scene");
   }
 
   void CheckSurfaces() {
@@ -188,8 +209,10 @@ class GroupRules {
   template <typename Loading>
   void CheckLoading(const KeyPath& where, const Loading& loading) {
     const KeyPath list = where.Key("loads"), motions = where.Key("support_motions");
-    for (std::size_t i = 0; i < loading.support_motions.size(); ++i)
+    for (std::size_t i = 0; i < loading.support_motions.size(); ++i) {
       CheckGroup(motions[i], loading.support_motions[i].node, loading.support_motions[i].group);
+      CheckBody(motions[i], loading.support_motions[i]);
+    }
     for (std::size_t i = 0; i < loading.loads.size(); ++i) {
       const Load& load = loading.loads[i];
       if (!load.surface.empty()) {
@@ -197,6 +220,7 @@ class GroupRules {
         continue;
       }
       CheckGroup(list[i], load.node, load.group);
+      CheckBody(list[i], load);
       const bool traction = load.px != 0.0 || load.py != 0.0;
       if (traction && beams_.count(load.group) == 0)
         checker_.Add(list[i].Key(load.px != 0.0 ? "px" : "py"), NumberText(load.px != 0.0 ? load.px : load.py),
@@ -211,7 +235,10 @@ class GroupRules {
 
 }  // namespace
 
-void CheckBeams(Checker* checker) { BeamRules(checker).Check(); }
+void CheckParts(Checker* checker) {
+  BeamRules(checker).Check();
+  CheckBodies(checker);
+}
 
 void CheckGroups(Checker* checker) { GroupRules(checker).Check(); }
 

@@ -23,8 +23,8 @@
 
 namespace contact_path {
 
-// All that Expand() (scene/expand.h) asks of the beams of a request.
-void CheckBeams(Checker* checker);
+// All that Expand() (scene/expand.h) asks of the beams and bodies of a request.
+void CheckParts(Checker* checker);
 
 // All that Expand() asks of groups, loads and contacts. The request of the checker has expanded beams, the loads and
 // contacts of the user, and num_nodes nodes that are listed.

@@ -269,6 +269,11 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
                  scaled = LoadNorm(scene, index, false, scaling.length);
     const bool tells = constant > 0.0 && constant >= kWeight * scaled;
     scaling.force = ForceOfElements(scene, index, tells ? scaled : 0.0, !tells || MotionNorm(scene) > 0.0);
+  } else if (scene.superelements.empty()) {  // rigid bodies alone
+    scaling.length = ExtentOfNodes(scene);
+    scaling.force =
+        std::max(LoadNorm(scene, index, false, scaling.length), LoadNorm(scene, index, true, scaling.length));
+    if (scaling.force == 0.0) scaling.force = 1.0;
   } else {
     const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
     scaling.force = std::max({reference_load, stiffness * MotionNorm(scene), LoadNorm(scene, index, true),

@@ -37,7 +37,8 @@ class StructureRules {
       checker_.CheckFields(list[i], node, &earlier);
       if (node.fixed_rotation && !node.name.empty() && !checker_.Turns(node.name))
         checker_.Add(list[i].Key("fixed_rotation"), "true", "must be false: no beam turns this node");
-      if (held_is_reliable && !(node.fixed_x && node.fixed_y) && held.count(node.name) == 0)
+      CheckBodyOf(list[i], node);
+      if (held_is_reliable && node.body.empty() && !(node.fixed_x && node.fixed_y) && held.count(node.name) == 0)
         checker_.Add(list[i], TextOrQuotes(node.name),
                      "a node that is free to move must belong to a " + ElementKinds());
     }
@@ -47,6 +48,7 @@ class StructureRules {
   void CheckElements() {
     bool any = false;
     ForEachElementList(scene_, [&](std::string_view, const auto& elements) { any = any || !elements.empty(); });
+    any = any || std::any_of(scene_.nodes.begin(), scene_.nodes.end(), IsBody);
     bool is_first = true;
     ForEachElementList(scene_, [&](std::string_view name, const auto& elements) {
       const KeyPath list = kScene.Key(name);
@@ -67,6 +69,16 @@ class StructureRules {
   }
 
  private:
+  void CheckBodyOf(const KeyPath& path, const Node& node) {
+    if (node.body.empty()) return;
+    const Node* const body = checker_.KnownNode(node.body);
+    if (body == nullptr || body == &node || !IsBody(*body))
+      checker_.Add(path.Key("body"), node.body, "must name a body of the scene");
+    for (const auto& [name, fixed] : {std::pair("fixed_x", node.fixed_x), std::pair("fixed_y", node.fixed_y),
+                                      std::pair("fixed_rotation", node.fixed_rotation)})
+      if (fixed) checker_.Add(path.Key(name), "true", "must be false: the node moves with body " + node.body);
+  }
+
   // The nodes that elements hold; nothing where elements refer to unknown nodes or where there are no elements.
   std::unordered_set<std::string> HeldNodes(bool* reliable) const {
     std::unordered_set<std::string> held;

@@ -53,6 +53,9 @@ void CheckOptions(Checker* checker) {
     checker->Add(path.Key("friction_law"), "total", "must be incremental with method mpec");
   if (!options.LocatesEvents() && !OneSidedBars(checker->GetScene()).empty())
     checker->Add(path.Key("method"), "mpec", "must be branch in a scene with bars that bear in one sense alone");
+  if (const std::vector<Node>& nodes = checker->GetScene().nodes;
+      !options.LocatesEvents() && std::any_of(nodes.begin(), nodes.end(), IsBody))
+    checker->Add(path.Key("method"), "mpec", "must be branch in a scene with rigid bodies");
   const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
   if (options.friction_law == FrictionLaw::kTotal &&
       std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))
@@ -113,7 +116,8 @@ bool StartsWith(const std::string& text, std::string_view beginning) {
 bool PreventExpansion(const std::vector<Violation>& violations) {
   return std::any_of(violations.begin(), violations.end(), [](const Violation& violation) {
     const std::string& key = violation.key;
-    if (StartsWith(key, "scene.groups") || StartsWith(key, "scene.surfaces")) return true;
+    if (StartsWith(key, "scene.groups") || StartsWith(key, "scene.surfaces") || StartsWith(key, "scene.bodies"))
+      return true;
     const std::string field = key.substr(key.find_last_of('.') + 1);
     return StartsWith(key, "scene.beams") && field != "EA" && field != "EI" && field != "GA" &&
            !StartsWith(field, "hinged[");
@@ -166,10 +170,10 @@ std::vector<Violation> Validate(const TraceRequest& request) {
     Checker checker(request);
     return ValidateExpanded(&checker);
   }
-  std::vector<Violation> first = FoundBy(CheckBeams, request), others;
+  std::vector<Violation> first = FoundBy(CheckParts, request), others;
   if (!PreventExpansion(first)) {
     TraceRequest with_nodes = request;
-    ExpandBeams(&with_nodes.scene);
+    ExpandParts(&with_nodes.scene);
     const std::vector<Violation> of_groups = FoundBy(CheckGroups, with_nodes);
     first.insert(first.end(), of_groups.begin(), of_groups.end());
   }

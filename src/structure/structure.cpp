@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -46,8 +47,10 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
                      std::vector<PlacedElement> elements)
     : dofs_(scene.nodes.size()) {
   NumberUnknowns(scene, index, configuration, elements);
+  Attach(scene, index);
   AddLoads(scene, index);
-  for (PlacedElement& placed : elements) AddPart(std::move(placed));
+  for (PlacedElement& placed : elements)
+    AddPart(AttachedElement::Wrap(std::move(placed), [this](int node) { return AttachmentOf(node); }));
   BuildPattern();
   // Coordinates are rounded relative to their size.
   double size = 1.0;
@@ -62,7 +65,8 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
 void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
                                const std::vector<PlacedElement>& elements) {
   const std::vector<double>& start = configuration.start;
-  std::vector<bool> rotates(scene.nodes.size(), false);
+  std::vector<bool> rotates;
+  for (const Node& node : scene.nodes) rotates.push_back(IsBody(node));
   for (const PlacedElement& placed : elements)
     for (const LocalDof& local : placed.element->Dofs())
       if (local.field == Field::kRotation)
@@ -81,6 +85,12 @@ void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, cons
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     const auto number = static_cast<int>(i);
+    if (IsAttached(node)) {
+      add(number, Field::kPosition, 0, start[2 * i], true, 0.0);
+      add(number, Field::kPosition, 1, start[2 * i + 1], true, 0.0);
+      if (rotates[i]) add(number, Field::kRotation, 0, configuration.start_rotations[i], true, 0.0);
+      continue;
+    }
     const SupportMotion* const motion = motions[i];
     const std::size_t before = prescribed_.size();
     add(number, Field::kPosition, 0, start[2 * i], node.fixed_x, motion != nullptr ? motion->dx : 0.0);
@@ -92,6 +102,20 @@ void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, cons
   }
   start_values_ = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   start_ = Eigen::Map<const Eigen::VectorXd>(unknowns.data(), static_cast<Eigen::Index>(unknowns.size()));
+}
+
+void Structure::Attach(const Scene& scene, const SceneIndex& index) {
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    const auto number = static_cast<int>(i);
+    if (IsBody(node))
+      bodies_.push_back({dofs_.Index(number, Field::kPosition, 0), dofs_.Index(number, Field::kPosition, 1),
+                         dofs_.Index(number, Field::kRotation, 0)});
+    if (!IsAttached(node)) continue;
+    const std::size_t body = index.Node(node.body);
+    const Node& at = scene.nodes[body];
+    attachments_[number] = {static_cast<int>(body), {node.x - at.x, node.y - at.y}};
+  }
 }
 
 void Structure::AddLoads(const Scene& scene, const SceneIndex& index) {
@@ -148,9 +172,20 @@ Eigen::Vector2d Structure::StartPosition(int node) const {
   return {start_values_[dofs_.Index(node, Field::kPosition, 0)], start_values_[dofs_.Index(node, Field::kPosition, 1)]};
 }
 
+const Attachment* Structure::AttachmentOf(int node) const {
+  const auto found = attachments_.find(node);
+  return found == attachments_.end() ? nullptr : &found->second;
+}
+
 FixedPoint Structure::PointOf(int node) const {
-  const Eigen::Vector2d start = StartPosition(node);
-  return {{{Coordinate{Dof(node, 0), start.x()}, Coordinate{Dof(node, 1), start.y()}}}};
+  const Attachment* const attachment = AttachmentOf(node);
+  const int of = attachment == nullptr ? node : attachment->body;
+  const Eigen::Vector2d start = StartPosition(of);
+  FixedPoint point = {{{Coordinate{Dof(of, 0), start.x()}, Coordinate{Dof(of, 1), start.y()}}}};
+  if (attachment == nullptr) return point;
+  point.frame.angle = {dofs_.Dof(of, Field::kRotation, 0), start_values_[dofs_.Index(of, Field::kRotation, 0)]};
+  point.arm = attachment->arm;
+  return point;
 }
 
 Eigen::VectorXd Structure::AllValues(const Eigen::VectorXd& u) const {
@@ -160,7 +195,22 @@ Eigen::VectorXd Structure::AllValues(const Eigen::VectorXd& u) const {
     if (component.dof >= 0) values[k] = u[component.dof];
     ++k;
   }
+  for (const auto& [node, attachment] : attachments_) {
+    values.segment<2>(dofs_.Index(node, Field::kPosition, 0)) = MovingPlace(PointOf(node)).At(u, 0.0);
+    if (const int rotation = dofs_.Index(node, Field::kRotation, 0); rotation >= 0)
+      values[rotation] = values[dofs_.Index(attachment.body, Field::kRotation, 0)];
+  }
   return values;
+}
+
+Eigen::VectorXd Structure::UnknownsOf(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd u(NumDofs());
+  Eigen::Index k = 0;
+  for (const DofMap::Component& component : dofs_.Components()) {
+    if (component.dof >= 0) u[component.dof] = values[k];
+    ++k;
+  }
+  return u;
 }
 
 void Structure::Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u,

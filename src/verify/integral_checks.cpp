@@ -35,7 +35,7 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
                            const Increment* after, bool next) {
   const Recorded recorded(before, increment, stage_);
   const ThreeStates ends = {StateOf(before), StateOf(increment), {}};
-  const std::vector<double> motion = ScaledMotion(ends[0], ends[1], stage_.scaling);
+  const std::vector<double> motion = ScaledMotion(ends[0], ends[1], stage_.scene, stage_.scaling);
   const double chord = std::sqrt(Product(motion, motion));
   if (!(recorded.arc > 0.0)) {
     findings_.Bound("nodes move though the arc length does not grow", chord, std::max(stage_.rounding, kSingular));
@@ -102,7 +102,7 @@ void IntegralChecks::CheckJump(const Increment& last, const Increment* before, c
   findings_.Bound("energy released is negative, over F L", -released, kRecorded);
   if (before == nullptr) return;
   const ThreeStates ends = {StateOf(*before), StateOf(landing), {}};
-  const std::vector<double> motion = ScaledMotion(ends[0], ends[1], stage_.scaling);
+  const std::vector<double> motion = ScaledMotion(ends[0], ends[1], stage_.scene, stage_.scaling);
   const double chord = std::sqrt(Product(motion, motion));
   findings_.Bound("arc length of the jump less its chord", std::abs(recorded.arc - chord),
                   kExact * chord + stage_.rounding);
@@ -161,13 +161,13 @@ void IntegralChecks::Compare(const Recorded& recorded, const Integrals& anew, co
 }
 
 IntegralChecks::Integrals IntegralChecks::Integrate(const ThreeStates& states, const Increment& increment) const {
-  const std::vector<double> chord = ScaledMotion(states[0], states[1], stage_.scaling);
+  const std::vector<double> chord = ScaledMotion(states[0], states[1], stage_.scene, stage_.scaling);
   const double square = Product(chord, chord), length = std::sqrt(square);
   Integrals integrals;
   integrals.arc.value = length;
   double ratio = 0.0;  // of the bend of the quadratic curve, which is across its chord, to the chord
   if (!states[2].positions.empty() && square > 0.0) {
-    const std::vector<double> third = ScaledMotion(states[0], states[2], stage_.scaling);
+    const std::vector<double> third = ScaledMotion(states[0], states[2], stage_.scene, stage_.scaling);
     const double t = integrals.t = Product(third, chord) / square;
     ratio = std::sqrt(std::max(0.0, Product(third, third) / square - t * t)) / std::abs(t * (1.0 - t));
   }

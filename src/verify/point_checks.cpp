@@ -132,8 +132,9 @@ void PointChecks::CheckContact(std::size_t i, const ContactRecord& contact, cons
   findings_.Bound("recorded gap of " + at.name + " less the true one",
                   std::min(std::abs(recorded - gap), std::abs(recorded - past_end)), stage_.rounding);
   const double rn = contact.rn / stage_.scaling.force, rt = contact.rt / stage_.scaling.force;
-  bool holds = contact.state == ContactState::kOpen ? std::max(std::abs(rn), std::abs(rt)) <= tolerance
-                                                    : std::abs(gap) <= tolerance;
+  bool holds = contact.state == ContactState::kOpen
+                   ? std::max(std::abs(rn), std::abs(rt)) <= tolerance
+                   : std::abs(gap + stage_.check.Give(i) / length * contact.rn) <= tolerance;
   if (contact.state == ContactState::kClosed) holds = holds && std::abs(rt) <= tolerance && at.friction == 0.0;
   if (contact.state == ContactState::kStick) holds = holds && std::abs(slip) <= tolerance_of_slip;
   if (Slips(contact.state)) {

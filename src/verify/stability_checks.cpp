@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_path/scene/expand.h"
+
 namespace contact_path {
 namespace {
 
@@ -38,16 +40,18 @@ std::optional<std::vector<std::size_t>> StabilityChecks::FreeComponents(const In
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
     const ContactState state = increment.contacts[i].state;
     if (state == ContactState::kOpen) continue;
-    if (state != ContactState::kStick || of_surfaces_[i]) return std::nullopt;
+    if (state != ContactState::kStick || of_surfaces_[i] || IsAttached(nodes[stage_.contacts[i].node]))
+      return std::nullopt;
     pinned[stage_.contacts[i].node] = true;
   }
   std::vector<std::size_t> free;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (IsAttached(nodes[i])) continue;
     if (!pinned[i] && !nodes[i].fixed_x) free.push_back(2 * i);
     if (!pinned[i] && !nodes[i].fixed_y) free.push_back(2 * i + 1);
   }
   for (std::size_t i = 0; i < increment.rotations.size(); ++i)
-    if (!nodes[i].fixed_rotation) free.push_back(2 * nodes.size() + i);
+    if (!nodes[i].fixed_rotation && !IsAttached(nodes[i])) free.push_back(2 * nodes.size() + i);
   if (free.size() > kMostComponents) return std::nullopt;
   return free;
 }

@@ -12,6 +12,7 @@
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
@@ -86,14 +87,16 @@ inline bool SameSizes(const Increment& a, const Increment& b) {
          a.contacts.size() == b.contacts.size();
 }
 
-// Of all positions and rotations, and of the load factor, scaled. State: Increment or CheckedState of the same sizes.
+// Of all positions and rotations, 0 of nodes that move with a body, and of the load factor, scaled. State: Increment or
+// CheckedState of the same sizes.
 template <typename State>
-std::vector<double> ScaledMotion(const State& from, const State& to, const Scaling& scaling) {
+std::vector<double> ScaledMotion(const State& from, const State& to, const Scene& scene, const Scaling& scaling) {
   std::vector<double> motion;
   motion.reserve(to.positions.size() + to.rotations.size() + 1);
   for (std::size_t i = 0; i < to.positions.size(); ++i)
-    motion.push_back((to.positions[i] - from.positions[i]) / scaling.length);
-  for (std::size_t i = 0; i < to.rotations.size(); ++i) motion.push_back(to.rotations[i] - from.rotations[i]);
+    motion.push_back(IsAttached(scene.nodes[i / 2]) ? 0.0 : (to.positions[i] - from.positions[i]) / scaling.length);
+  for (std::size_t i = 0; i < to.rotations.size(); ++i)
+    motion.push_back(IsAttached(scene.nodes[i]) ? 0.0 : to.rotations[i] - from.rotations[i]);
   motion.push_back((to.load_factor - from.load_factor) / scaling.load_factor);
   return motion;
 }

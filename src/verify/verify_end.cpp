@@ -18,10 +18,10 @@ bool ProgramDone(const TraceRequest& request, const Increment& last) {
   return last.stage == static_cast<int>(request.program.size()) && AtTarget(request, last);
 }
 
-bool SameState(const Increment& a, const Increment& b, const Scaling& scaling) {
+bool SameState(const Increment& a, const Increment& b, const Scene& scene, const Scaling& scaling) {
   if (a.stage != b.stage || !SameSizes(a, b)) return false;
   double worst = 0.0;
-  for (const double component : ScaledMotion(a, b, scaling)) worst = std::max(worst, std::abs(component));
+  for (const double component : ScaledMotion(a, b, scene, scaling)) worst = std::max(worst, std::abs(component));
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
     const ContactRecord &p = a.contacts[i], &q = b.contacts[i];
     if (p.state != q.state) return false;
@@ -86,7 +86,7 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
     const auto stage = static_cast<std::size_t>(std::max(last.stage, 1) - 1);
     const Scaling scaling = StageScales(request, stage);
     const bool met = std::any_of(increments.begin(), increments.end() - 1,
-                                 [&](const Increment& other) { return SameState(other, last, scaling); });
+                                 [&](const Increment& other) { return SameState(other, last, request.scene, scaling); });
     return met ? "" : says + "no earlier increment has the state of the last one";
   }
   return {};

@@ -159,7 +159,7 @@ class EventVerifier {
     Chord chord;
     chord.arc = to.arc_length - from.arc_length;
     if (!(chord.arc > kShortest)) return std::nullopt;
-    chord.motion = ScaledMotion(from, to, scaling_);
+    chord.motion = ScaledMotion(from, to, request_.scene, scaling_);
     const double length = std::sqrt(Product(chord.motion, chord.motion));
     for (double& component : chord.motion) component /= length;
     return chord;

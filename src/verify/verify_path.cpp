@@ -235,7 +235,7 @@ class StageVerifier {
   void CheckStates(const Increment& before, const Increment& increment, bool next) {
     // Reactions may change at rest where a branch begins, and nowhere else.
     if (next && !(increment.arc_length > before.arc_length) && before.event.branches.empty()) {
-      const std::vector<double> motion = ScaledMotion(before, increment, stage_.scaling);
+      const std::vector<double> motion = ScaledMotion(before, increment, stage_.scene, stage_.scaling);
       BoundReactionChange("reactions change while nothing moves, and not at an event", before, increment,
                           std::sqrt(Product(motion, motion)));
     }

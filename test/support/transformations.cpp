@@ -64,6 +64,7 @@ void TransformRequest(TraceRequest* request, Map map) {
     }
   });
   for (Node& node : scene->nodes) map(&node.x, &node.y);
+  for (RigidBody& body : scene->bodies) map(&body.x, &body.y);
   for (Obstacle& obstacle : scene->obstacles) {
     map(&obstacle.px, &obstacle.py);
     map(&obstacle.nx, &obstacle.ny);
@@ -107,11 +108,14 @@ void ReverseElements(Solid* solid) {
   solid->nodes = std::move(nodes);
 }
 
-// Reverses the values of the nodes of the scene, `each` for a node, and those of the inner nodes of beams behind them.
-void ReverseNodes(std::size_t nodes, std::size_t each, std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(nodes * each);
-  std::reverse(values->begin(), middle);
-  std::reverse(middle, values->end());
+// Reverses the values of the nodes of the scene, `each` for a node, those of the inner nodes of beams behind them, and
+// those of bodies at the end.
+void ReverseNodes(const Scene& scene, std::size_t each, std::vector<double>* values) {
+  const auto nodes = values->begin() + static_cast<std::ptrdiff_t>(scene.nodes.size() * each),
+             bodies = values->end() - static_cast<std::ptrdiff_t>(scene.bodies.size() * each);
+  std::reverse(values->begin(), nodes);
+  std::reverse(nodes, bodies);
+  std::reverse(bodies, values->end());
   if (each == 2) ForEachPoint(values, [](double* y, double* x) { std::swap(*x, *y); });
 }
 
@@ -209,6 +213,7 @@ TracedPath UndoMirror(TracedPath path) {
 TraceRequest Reverse(TraceRequest request) {
   Scene& scene = request.scene;
   std::reverse(scene.nodes.begin(), scene.nodes.end());
+  std::reverse(scene.bodies.begin(), scene.bodies.end());
   std::reverse(scene.bars.begin(), scene.bars.end());
   std::reverse(scene.superelements.begin(), scene.superelements.end());
   std::reverse(scene.beams.begin(), scene.beams.end());
@@ -252,10 +257,10 @@ TraceRequest Reverse(TraceRequest request) {
 }
 
 TracedPath UndoReversal(TracedPath path) {
-  const std::size_t nodes = path.request.scene.nodes.size();
+  const Scene& scene = path.request.scene;
   for (Increment& increment : path.increments) {
-    ReverseNodes(nodes, 2, &increment.positions);
-    if (!increment.rotations.empty()) ReverseNodes(nodes, 1, &increment.rotations);
+    ReverseNodes(scene, 2, &increment.positions);
+    if (!increment.rotations.empty()) ReverseNodes(scene, 1, &increment.rotations);
     std::reverse(increment.contacts.begin(), increment.contacts.end());
     std::reverse(increment.bars.begin(), increment.bars.end());
   }

@@ -28,7 +28,7 @@ inline constexpr int kNearestPatch = std::numeric_limits<int>::min();
 class ContactPair : public Law {
  public:
   // Whether the surface is a part of the structure: then other patches have other dofs, and c need not be 1.
-  bool Deformable() const { return Compliant(); }
+  bool Deformable() const { return surface_traits_.deformable; }
   double Friction() const { return LargestRatio(); }  // mu; 0 where the pair cannot slide
   bool Frictional() const { return Friction() > 0.0; }
   // The force unit for the normal reaction. Where the friction coefficient is above 1, the friction force may be so
@@ -117,6 +117,8 @@ class ContactPair : public Law {
     bool has_patches = false, seamless = false;
     std::optional<double> slip_origin;  // xi_0 of the total law
     double round = 0.0;                 // length of a closed surface
+    bool deformable = false;
+    double compliance = 0.0;  // of ports that are held: scaled motion per force
   };
   // Set once, by the constructor of the pair. traits.largest_ratio: mu.
   void SetContact(Traits traits, const SurfaceTraits& surface_traits);

@@ -20,10 +20,10 @@ class RigidPair : public ContactPair {
   // friction: mu; 0 where the node cannot slide (scene/surface.h).
   // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
   // slip_origin: of the total law of friction, the point from whose foot slip is measured, as the obstacle sees it
-  // [length]; nothing: incremental law.
+  // [length]; nothing: incremental law. compliance: of its ports, where reactions need not be determined without.
   RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
             const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
-            const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt);
+            const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt, double compliance = 0.0);
 
   void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
                 PortsAt* ports) const override;

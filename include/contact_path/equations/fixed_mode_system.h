@@ -60,10 +60,11 @@ class FixedModeSystem : public ArcEquations {
   // The largest of Structure::ResidualUnits().
   double ResidualUnit() const override { return residual_unit_; }
   // Of the force on a moved support the component along its motion counts: whether the component across it is an
-  // unknown depends on the axes.
+  // unknown depends on the axes. Forces that small compliances tell count by how far these give way: rounding of the
+  // coordinates changes such forces by more than anything else.
   Eigen::VectorXd Counted(const Eigen::VectorXd& change) const override;
   double Norm(const Eigen::VectorXd& change) const override {
-    return structure_.ObliqueSupports().empty() ? change.norm() : Counted(change).norm();
+    return structure_.ObliqueSupports().empty() && !gives_ ? change.norm() : Counted(change).norm();
   }
   // The pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x) override;
@@ -173,7 +174,7 @@ class FixedModeSystem : public ArcEquations {
   Eigen::Index first_active_equation_ = 0;
   Eigen::Index num_unknowns_ = 0;
   Eigen::Index num_equations_ = 0;
-  bool curved_ = false, couples_ = false;  // some of the laws in the equations
+  bool curved_ = false, couples_ = false, gives_ = false;  // some of the laws in the equations
   Eigen::SparseMatrix<double> tangent_;
   Eigen::SparseMatrix<double> transposed_;
   Frame frame_;

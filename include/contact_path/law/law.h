@@ -97,6 +97,9 @@ class Law {
   bool Couples() const { return traits_.couples; }
   // Whether what it holds gives way: its forces are not redundant beside those of another law.
   bool Compliant() const { return traits_.compliant; }
+  // Whether its compliances are its own, and its forces functions of the place; otherwise compliances are there to make
+  // reactions unique.
+  bool Elastic() const { return traits_.elastic; }
   // Whether Hessians can be other than zero.
   bool Curved() const { return traits_.curved; }
   // Whether its forces follow the motion since the start of the program, and not since the last increment. Verdicts of
@@ -136,13 +139,15 @@ class Law {
   double TravelRate(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du,
                     double ds) const;
 
-  // Those of ports that are held and give way; the others are 0.
+  // Those of ports that are held and give way by a compliance of their own; the others are 0.
   PortReals CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const;
-  // Stored in the compliance of its ports [force length].
+  // Stored in compliances of its own [force length].
   double Energy(const Mode& mode, const PortReals& forces) const;
 
   // References at a place from which an arc sets out.
   virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;
+  // The same for the equations of ports that are held with these forces.
+  PortReals ReferenceOf(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const;
   // How far an idle law is from its limit, for the search of what an increment may reach.
   virtual double Reach(const Eigen::VectorXd& u, double s) const = 0;
 
@@ -184,7 +189,7 @@ class Law {
   struct Traits {
     std::size_t num_ports = 1;
     LawDofs dofs;  // of all pieces, unless Dofs() is another function
-    bool couples = false, compliant = false, curved = false, holonomic = false;
+    bool couples = false, compliant = false, elastic = false, curved = false, holonomic = false;
     std::array<Terms, kMostPorts> moves{};
     double force_unit = 1.0;
     double largest_ratio = 0.0;

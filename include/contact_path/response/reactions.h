@@ -37,8 +37,8 @@ class ReactionProblem {
 
  private:
   // Where moments of the boundary are about.
-  Eigen::Vector2d Centre(const TouchedBoundary& boundary, const Eigen::VectorXd& values, double s) const;
-  Eigen::Vector2d PlaceOf(std::size_t node, const Eigen::VectorXd& values) const;
+  Eigen::Vector2d Centre(const TouchedBoundary& boundary, const Eigen::VectorXd& u, double s) const;
+  Eigen::Vector2d PlaceOf(std::size_t node, const Eigen::VectorXd& u) const;
 
   struct MovingPoint {
     Eigen::Vector2d at;  // at load factor 0

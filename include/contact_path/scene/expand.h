@@ -24,23 +24,29 @@ int BeamSegments(const Beam& beam);
 // Whether the beam turns its node `place`, of the nodes that are listed for it.
 bool TurnsNode(const Beam& beam, std::size_t place);
 
-// By node of an expanded scene: whether a beam turns it. Only such a node has a rotation. Names that the scene does not
-// have count for nothing.
+// By node of an expanded scene: whether a beam turns it, or it is a body. Only such a node has a rotation. Names that
+// the scene does not have count for nothing.
 std::vector<bool> NodesThatTurn(const Scene& scene);
+// Whether anything in a scene, expanded or not, turns nodes.
+bool HasRotations(const Scene& scene);
 
-// The inner nodes of all beams follow the nodes of the scene, beam by beam; each beam lists all of its nodes. `scene`
-// must have sound beams; of a beam that is expanded nothing changes.
-void ExpandBeams(Scene* scene);
+// In an expanded scene a body is a node of its name whose `body` is that name, too.
+inline bool IsBody(const Node& node) { return !node.body.empty() && node.body == node.name; }
+inline bool IsAttached(const Node& node) { return !node.body.empty() && node.body != node.name; }
+
+// The inner nodes of all beams follow the nodes of the scene, beam by beam; each beam lists all of its nodes. Bodies
+// follow as nodes. `scene` must have sound beams; of a beam that is expanded nothing changes.
+void ExpandParts(Scene* scene);
 
 // Where the parts of an expanded list stand in the list of the request, from 0.
 using Places = std::vector<std::size_t>;
 
-// The request with the inner nodes of its beams, and with loads, contacts and support motions on nodes in place of
-// those on groups; what `supports` fix is fixed in the nodes. A node that is fixed in x and y is no candidate of its
-// group, but with a surface that can move. A traction acts on the nodes of each segment of a beam, half of its
-// resultant on each, which is exact to second order in the length of the segment, and on the nodes of each edge of a
-// solid by their shape functions. `request` must be sound (validate.h); a part that names no group, beam or surface of
-// the scene stays as it is.
+// The request with the inner nodes of its beams and with nodes in place of its bodies, and with loads, contacts and
+// support motions on nodes in place of those on groups; what `supports` fix is fixed in the nodes. A node that is fixed
+// in x and y is no candidate of its group, but with a surface that can move. A traction acts on the nodes of each
+// segment of a beam, half of its resultant on each, which is exact to second order in the length of the segment, and on
+// the nodes of each edge of a solid by their shape functions. `request` must be sound (validate.h); a part that names
+// no group, beam or surface of the scene stays as it is.
 struct Expansion {
   TraceRequest request;
   Places contacts;

@@ -73,10 +73,30 @@ struct Node {
   bool fixed_x = false;
   bool fixed_y = false;
   bool fixed_rotation = false;  // only where a beam turns the node
+  std::string body = {};        // moves with it; then nothing of the node is fixed by itself
 };
 
 template <typename P>
 constexpr auto Fields(Of<Node>) {
+  return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("x", &P::x).In(units::kLength),
+                    Member("y", &P::y).In(units::kLength), Member("fixed_x", &P::fixed_x),
+                    Member("fixed_y", &P::fixed_y), Member("fixed_rotation", &P::fixed_rotation),
+                    Member("body", &P::body));
+}
+
+// Rigid body: x, y and the rotation of a reference point are its unknowns. Nodes that move with it hold it to elements
+// and contacts.
+struct RigidBody {
+  std::string name;
+  double x = 0.0;  // initial position of the reference point [length]
+  double y = 0.0;
+  bool fixed_x = false;
+  bool fixed_y = false;
+  bool fixed_rotation = false;
+};
+
+template <typename P>
+constexpr auto Fields(Of<RigidBody>) {
   return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("x", &P::x).In(units::kLength),
                     Member("y", &P::y).In(units::kLength), Member("fixed_x", &P::fixed_x),
                     Member("fixed_y", &P::fixed_y), Member("fixed_rotation", &P::fixed_rotation));
@@ -150,7 +170,7 @@ constexpr auto Fields(Of<Group>) {
                     Member("nodes", &P::nodes).Naming(TextKind::kNode));
 }
 
-// Dead load: on a node, or on each node of a group, or, as a traction, on a beam or a surface.
+// Dead load: on a node, or on each node of a group, on a body, or, as a traction, on a beam or a surface.
 struct Load {
   std::string node;
   double fx = 0.0;  // [force], per unit of the load factor unless constant
@@ -161,6 +181,7 @@ struct Load {
   double px = 0.0;         // traction per initial length of the axis or the boundary [force/length]
   double py = 0.0;
   std::string surface = {};  // in place of node: px and py act on it
+  std::string body = {};     // in place of node: fx and fy act on its reference point
 };
 
 template <typename P>
@@ -169,7 +190,7 @@ constexpr auto Fields(Of<Load>) {
                     Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant),
                     Member("moment", &P::moment).In(units::kMomentRate), Member("group", &P::group),
                     Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate),
-                    Member("surface", &P::surface));
+                    Member("surface", &P::surface), Member("body", &P::body));
 }
 
 // Rigid obstacle. A half plane admits the points x with n . (x - p) >= 0. The tangent of any shape is t = (n_y, -n_x).
@@ -243,13 +264,15 @@ struct SupportMotion {
   double dy = 0.0;
   double rotation = 0.0;   // [rad] per unit of the load factor; 0 where the rotation is free
   std::string group = {};  // in place of node
+  std::string body = {};   // in place of node
 };
 
 template <typename P>
 constexpr auto Fields(Of<SupportMotion>) {
   return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("dx", &P::dx).In(units::kLengthRate),
                     Member("dy", &P::dy).In(units::kLengthRate),
-                    Member("rotation", &P::rotation).In(units::kRotationRate), Member("group", &P::group));
+                    Member("rotation", &P::rotation).In(units::kRotationRate), Member("group", &P::group),
+                    Member("body", &P::body));
 }
 
 // Motion of an obstacle: it is turned about a point by the angle turn x load factor, counterclockwise, and then moved
@@ -287,6 +310,7 @@ struct Scene {
   std::vector<Support> supports;
   std::vector<SupportMotion> support_motions;
   std::vector<ObstacleMotion> obstacle_motions;
+  std::vector<RigidBody> bodies;
 };
 
 template <typename P>
@@ -296,7 +320,8 @@ constexpr auto Fields(Of<Scene>) {
                     Member("materials", &P::materials), Member("solids", &P::solids), Member("groups", &P::groups),
                     Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
                     Member("contacts", &P::contacts), Member("supports", &P::supports),
-                    Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
+                    Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
+                    Member("bodies", &P::bodies));
 }
 
 // Calls visit(name, list) for each list of elements of a scene, parts that join `nodes` and hold them by forces, in the

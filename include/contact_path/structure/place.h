@@ -95,6 +95,12 @@ class PlaceAt {
   Eigen::Vector2d x;
   MovingPlace::Motion first;  // dx/dq
 
+  // Second derivatives by q of weights . x.
+  LawMatrix Second(const Eigen::Vector2d& weights) const;
+  // d/dh along q + h direction of the first derivatives, and of the second ones.
+  MovingPlace::Motion FirstChange(const LawVector& direction) const;
+  LawMatrix SecondChange(const Eigen::Vector2d& weights, const LawVector& direction) const;
+
   // Of a function of x with this gradient and Hessian: second derivatives by q.
   LawMatrix Hessian(const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian) const;
   // d/dh of that along q + h direction. change: d/dh of the Hessian by x.
@@ -107,11 +113,6 @@ class PlaceAt {
     std::array<Eigen::Matrix2d, 4> rotation;  // R, and its derivatives by turn . q
     Eigen::Vector2d arm;                      // z
   };
-  // Second derivatives by q of weights . x.
-  LawMatrix Second(const Eigen::Vector2d& weights) const;
-  // d/dh along q + h direction of the first derivatives, and of the second ones.
-  MovingPlace::Motion FirstChange(const LawVector& direction) const;
-  LawMatrix SecondChange(const Eigen::Vector2d& weights, const LawVector& direction) const;
 
   std::vector<Turned> turned_;  // empty where no frame turns
 };

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/structure/attached_element.h"
 #include "contact_path/structure/dof_map.h"
 #include "contact_path/structure/element.h"
 #include "contact_path/structure/place.h"
@@ -45,6 +47,8 @@ class Structure {
 
   const Eigen::VectorXd& Start() const { return start_; }  // u at the start
   Eigen::Vector2d StartPosition(int node) const;           // of its components, free or not
+  // Null: the node is not attached to a body.
+  const Attachment* AttachmentOf(int node) const;
   FixedPoint PointOf(int node) const;
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
@@ -56,12 +60,15 @@ class Structure {
   Orderings* SharedOrderings() const { return orderings_.get(); }
   // The forces that hold the prescribed components at (u, s), in their order: phi - s f - f_constant [force].
   Eigen::VectorXd SupportReactions(const Eigen::Ref<const Eigen::VectorXd>& u, double s) const;
-  // The values of all Dofs().Components(), the unknown ones from u.
+  // The values of all Dofs().Components(), the unknown ones from u, those of attached nodes by where their bodies are.
   Eigen::VectorXd AllValues(const Eigen::VectorXd& u) const;
-  // Calls visit(numbers) for each element: which of Dofs().Components() it joins.
+  // u, of the values of all components.
+  Eigen::VectorXd UnknownsOf(const Eigen::VectorXd& values) const;
+  // Calls visit(numbers) for each element and each body: which of Dofs().Components() it joins.
   template <typename Visit>
   void ForEachElement(Visit visit) const {
     for (const Part& part : parts_) visit(part.components);
+    for (const std::vector<int>& components : bodies_) visit(components);
   }
 
   // By unknown: an upper bound of the forces on it at the start per unit of a motion of the elements, and of the loads.
@@ -101,6 +108,7 @@ class Structure {
 
   void NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
                       const std::vector<PlacedElement>& elements);
+  void Attach(const Scene& scene, const SceneIndex& index);
   void AddLoads(const Scene& scene, const SceneIndex& index);
   void AddPart(PlacedElement placed);
   void BuildPattern();
@@ -116,6 +124,8 @@ class Structure {
   std::vector<PrescribedDof> prescribed_;
   std::vector<std::size_t> oblique_supports_;
   std::vector<Part> parts_;
+  std::vector<std::vector<int>> bodies_;   // components of each
+  std::map<int, Attachment> attachments_;  // by node
   Eigen::SparseMatrix<double> pattern_;
   Eigen::VectorXd residual_units_;
   Eigen::VectorXd force_rounding_;

@@ -33,7 +33,7 @@ class Structure:
     """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, friction (k,) of the k contacts.
 
     bar_names (m,), contacts (k,): as quantities have them. Elements of further kinds are drawn as bars, without a name, or as
-    superelements where they join more or fewer than two nodes. stages: without a program there is one, of the scene's own.
+    superelements where they join more or fewer than two nodes, and so are bodies. stages: without a program there is one, of the scene's own.
 
     ValueError: as of expanded().
     """
@@ -60,6 +60,9 @@ class Structure:
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
                               for part in scene['superelements']]
         self.superelements += [([index[name] for name in nodes], np.array([])) for nodes in further if len(nodes) != 2]
+        # A body is drawn as the lines from its nodes to their middle.
+        self.superelements += [([i for i, node in enumerate(scene['nodes']) if node['body'] == name], np.array([]))
+                               for name in dict.fromkeys(node['body'] for node in scene['nodes'] if node['body'])]
         self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
         own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
                'obstacle_motions': scene['obstacle_motions']}

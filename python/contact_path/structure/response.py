@@ -92,7 +92,7 @@ def increments(path: Increments, traced: Mapping[str, Any]) -> List[Dict[str, An
     nodes, contacts = [node['name'] for node in traced['scene']['nodes']], traced['names']['contacts']
     table = {name: values[rows].tolist() for name, values in path.table.items()}
     zeros = [0.0] * len(rows)
-    turned = [table.get('rotation_' + node, zeros) for node in nodes] if traced['scene']['beams'] else []
+    turned = [table.get('rotation_' + node, zeros) for node in nodes] if traced['names']['turning'] else []
     places = [table[axis + node] for node in nodes for axis in ('x_', 'y_')]
     states = [[table['%s_%s' % (field, name)] for field in ('rn', 'rt', 'state')] for name in contacts]
     stages = table.get('stage', [0] * len(rows))

@@ -1,0 +1,164 @@
+// Rigid bodies in scenes: limits in closed form, and bodies against the same bodies of stiff bars.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/trace.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path::bodies_test {
+namespace {
+
+constexpr double kExact = 1e-7;  // contacts of bodies give way by 1e-8 of their forces
+
+void ExpectProved(const TracedPath& path) {
+  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+}
+
+// A box of the weight 1, `width` wide, on a rough floor; the reference point is above its middle at this height.
+TraceRequest Box(double width, double height, double friction) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "box";
+  scene.bodies = {{"box", 0.0, height}};
+  scene.nodes = {{"a", -0.5 * width, 0.0}, {"b", 0.5 * width, 0.0}};
+  for (Node& node : scene.nodes) node.body = "box";
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+  scene.contacts = {{"a", "floor"}, {"b", "floor"}};
+  Load weight, push;
+  weight.body = push.body = "box";
+  weight.fy = -1.0;
+  weight.constant = true;
+  push.fx = 1.0;
+  scene.loads = {weight, push};
+  request.options.max_increments = 400;
+  return request;
+}
+
+double LargestLoadOf(const TracedPath& path) { return path.increments[LargestLoad(path)].load_factor; }
+
+// Pushed at the height z, a box slides at mu W where mu < b / (2 z), and tips at W b / (2 z) otherwise.
+TEST(Bodies, ABoxSlidesOrTips) {
+  for (const double friction : {0.05, 0.2, 0.49, 0.51, 0.8})
+    for (const double width : {0.5, 1.0, 3.0}) {
+      SCOPED_TRACE(testing::Message() << "mu " << friction << ", width " << width);
+      const double height = 1.0, tips = width / (2.0 * height);
+      const TracedPath path = TraceIncrements(Box(width, height, friction));
+      ASSERT_FALSE(path.increments.empty()) << path.result.message;
+      EXPECT_NEAR(LargestLoadOf(path), std::min(friction, tips), kExact) << path.result.message;
+      ExpectProved(path);
+    }
+}
+
+// About the edge b a moment tips the box at M = W (b cos t - h sin t) / 2, t its turn, 2 z = h the height.
+TEST(Bodies, ABoxTipsByAMoment) {
+  TraceRequest request = Box(1.0, 0.8, 0.9);
+  request.scene.loads[1].fx = 0.0;
+  request.scene.loads[1].moment = -1.0;
+  request.options.stop = {{"box.rotation", "<", -0.5}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_NEAR(LargestLoadOf(path), 0.5, kExact);
+  int tipped = 0;
+  for (const Increment& increment : path.increments) {
+    const double t = -increment.rotations.back();
+    if (!(t > 1e-6)) continue;
+    EXPECT_NEAR(increment.load_factor, 0.5 * (std::cos(t) - 1.6 * std::sin(t)), kExact);
+    ++tipped;
+  }
+  EXPECT_GT(tipped, 3);
+  ExpectProved(path);
+}
+
+// A ladder at the angle a to the floor holds its weight while tan a >= (1 - mu_f mu_w) / (2 mu_f).
+TEST(Bodies, ALadderHoldsOrSlides) {
+  for (const double floor : {0.3, 0.6})
+    for (const double wall : {0.0, 0.4}) {
+      const double critical = std::atan((1.0 - floor * wall) / (2.0 * floor));
+      for (const double beside : {-0.01, 0.01}) {
+        SCOPED_TRACE(testing::Message() << floor << ", " << wall << ", " << beside);
+        const double angle = critical + beside, x = std::cos(angle), y = std::sin(angle);
+        TraceRequest request;
+        Scene& scene = request.scene;
+        scene.name = "ladder";
+        scene.bodies = {{"ladder", 0.5 * x, 0.5 * y}};
+        scene.nodes = {{"foot", 0.0, 0.0}, {"top", x, y}};
+        for (Node& node : scene.nodes) node.body = "ladder";
+        scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, floor},
+                           {"wall", ObstacleShape::kHalfPlane, x, 0.0, -1.0, 0.0, wall}};
+        scene.contacts = {{"foot", "floor"}, {"top", "wall"}};
+        Load weight;
+        weight.body = "ladder";
+        weight.fy = -1.0;
+        scene.loads = {weight};
+        request.options.stop = {{"load_factor", ">", 2.0}};
+        const TracedPath path = TraceIncrements(request);
+        const double reached = path.increments.empty() ? 0.0 : path.increments.back().load_factor;
+        if (beside > 0.0)
+          EXPECT_NEAR(reached, 2.0, kExact) << path.result.message;
+        else
+          EXPECT_LT(reached, kExact) << path.result.message;
+        ExpectProved(path);
+      }
+    }
+}
+
+// A block between beams and strings over a floor, the block a body or of stiff bars.
+TraceRequest Clamped(bool rigid) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "clamped";
+  scene.nodes = {{"ground", -1.0, 0.5, true, true}, {"a", 0.0, 0.0}, {"b", 0.6, 0.0}, {"c", 0.6, 0.5}, {"d", 0.0, 0.5},
+                 {"top", 0.3, 1.8, true, true}};
+  scene.bars = {{{"c", "top"}, 0.8, 0.0, StrainMeasure::kBiot, BarSense::kTension, "cord"}, {{"ground", "d"}, 0.5}};
+  scene.beams = {{"spring", {"ground", "a"}, 5.0, 0.05, 0.0, 6, 0.0, {false, true}}};
+  scene.obstacles = {{"floor", ObstacleShape::kCircle, 0.5, -3.3, 0.0, 0.0, 0.3, 3.2}};
+  scene.contacts = {{"a", "floor"}, {"b", "floor"}};
+  if (rigid) {
+    scene.bodies = {{"block", 0.25, 0.3}};
+    for (std::size_t i = 1; i < 5; ++i) scene.nodes[i].body = "block";
+    Load load;
+    load.body = "block";
+    load.fy = -0.4;
+    load.fx = 0.1;
+    scene.loads = {load};
+  } else {
+    scene.nodes.push_back({"block", 0.25, 0.3});
+    constexpr double kStiff = 1e6;
+    const std::vector<std::string> names = {"a", "b", "c", "d", "block"};
+    for (std::size_t i = 0; i < names.size(); ++i)
+      for (std::size_t k = i + 1; k < names.size(); ++k) scene.bars.push_back({{names[i], names[k]}, kStiff});
+    scene.loads = {{"block", 0.1, -0.4}};
+  }
+  request.options.stop = {{"load_factor", ">", 1.5}};
+  return request;
+}
+
+TEST(Bodies, AreTheSameAsBodiesOfStiffBars) {
+  const TracedPath body = TraceIncrements(Clamped(true)), bars = TraceIncrements(Clamped(false));
+  ASSERT_EQ(body.result.reason, EndReason::kStopCriterion) << body.result.message;
+  ASSERT_EQ(bars.result.reason, EndReason::kStopCriterion) << bars.result.message;
+  ExpectSameEvents(body, bars, 2e-5);
+  for (const char* const node : {"a", "b", "c", "d", "block"}) {
+    EXPECT_NEAR(PositionX(body, body.increments.back(), node), PositionX(bars, bars.increments.back(), node), 2e-5);
+    EXPECT_NEAR(PositionY(body, body.increments.back(), node), PositionY(bars, bars.increments.back(), node), 2e-5);
+  }
+  ExpectProved(body);
+}
+
+TEST(Bodies, AreTheSameInOtherWords) {
+  const TraceRequest request = Clamped(true);
+  const TracedPath path = TraceIncrements(request);
+  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, 1e-7);
+  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(request))), path, 1e-7);
+  ExpectSamePath(UndoMirror(TraceIncrements(Mirror(request))), path, 1e-7);
+}
+
+}  // namespace
+}  // namespace contact_path::bodies_test
