@@ -80,8 +80,7 @@ PortReals Law::CompliantForces(const Eigen::VectorXd& u, double s, const Mode& m
 
 double Law::Energy(const Mode& mode, const PortReals& forces) const {
   double energy = 0.0;
-  for (std::size_t p = 0; Elastic() && p < NumPorts(); ++p)
-    energy += 0.5 * In(mode).ports[p].compliance * forces[p] * forces[p];
+  for (std::size_t p = 0; p < NumPorts(); ++p) energy += 0.5 * In(mode).ports[p].compliance * forces[p] * forces[p];
   return energy;
 }
 

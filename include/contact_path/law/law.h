@@ -141,7 +141,7 @@ class Law {
 
   // Those of ports that are held and give way by a compliance of their own; the others are 0.
   PortReals CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const;
-  // Stored in compliances of its own [force length].
+  // Stored in the compliance of its ports [force length].
   double Energy(const Mode& mode, const PortReals& forces) const;
 
   // References at a place from which an arc sets out.
