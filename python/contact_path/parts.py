@@ -145,7 +145,7 @@ class Parts(Loading):
     @named
     def obstacle(self, name: str, *, shape: str = '', px: float = 0.0, py: float = 0.0, nx: float = 0.0, ny: float = 0.0,
                  friction: float = 0.0, radius: float = 0.0, inside: bool = False, points: Numbers = (), closed: bool = False,
-                 fillet: float = 0.0) -> None:
+                 fillet: float = 0.0, body: str = '') -> None:
         """A rigid obstacle with a friction coefficient [-], the admissible side on the left of its boundary. shape half_plane:
         boundary through px, py [length], normal nx, ny towards the admissible side; circle: centre px, py, radius [length], inside:
         it encloses the structure; polyline with fillets of this radius [length] and spline: points (n, 2), counted from px, py,
@@ -160,7 +160,7 @@ class Parts(Loading):
 
     @named
     def body(self, name: str, *, x: float = 0.0, y: float = 0.0, fixed_x: bool = False, fixed_y: bool = False,
-              fixed_rotation: bool = False) -> None:
+             fixed_rotation: bool = False) -> None:
         """One of the bodies: x [length]; y [length]."""
         self._add('bodies', locals())
 

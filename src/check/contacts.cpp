@@ -18,7 +18,8 @@ Vector Turned(const Vector& v, Real angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-// An obstacle, which is turned about a point and then moved, both in proportion to the load factor.
+// An obstacle, which is turned about a point and then moved, both in proportion to the load factor; or which a body
+// carries.
 struct MovedObstacle {
   std::shared_ptr<const Surface> surface;
   Vector point;      // p of the scene
@@ -26,6 +27,10 @@ struct MovedObstacle {
   Real turn = 0.0L;  // before that, about a point
   Vector about;
   Real friction = 0.0L;
+  std::optional<std::size_t> body = std::nullopt;  // node; its reference point is `about` at the start
+  std::size_t num_nodes = 0;                       // of the scene
+
+  Real TurnAt(const PlacedState& state) const { return body ? state.Rotation(*body) : turn * state.LoadFactor(); }
 };
 
 class ObstacleContact : public Contact {
@@ -34,12 +39,13 @@ class ObstacleContact : public Contact {
   ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin)
       : Contact(node, obstacle.friction), obstacle_(std::move(obstacle)), slip_origin_(slip_origin) {}
 
+  bool OnBody() const override { return obstacle_.body.has_value(); }
   bool SurelyOpen(const PlacedState& state) const override { return obstacle_.surface->SurelyOpen(Position(state)); }
   Real Gap(const PlacedState& state) const override { return obstacle_.surface->Gap(Position(state)); }
   // Where the obstacle is now.
   Vector Normal(const PlacedState& state) const override {
     const Vector normal = obstacle_.surface->Normal(Position(state));
-    return obstacle_.turn == 0.0L ? normal : Turned(normal, obstacle_.turn * state.LoadFactor());
+    return !Turns() ? normal : Turned(normal, obstacle_.TurnAt(state));
   }
   Real Slip(const PlacedState& from, const PlacedState& to) const override {
     return obstacle_.surface->Slip(Position(from), Position(to));
@@ -50,14 +56,18 @@ class ObstacleContact : public Contact {
   }
   void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
     const Vector normal = Normal(state), tangent{normal.y, -normal.x};
-    AddTo(forces, Node(), factor * (rn * normal + rt * tangent));
+    const Vector force = factor * (rn * normal + rt * tangent);
+    AddTo(forces, Node(), force);
+    if (!obstacle_.body) return;
+    AddTo(forces, *obstacle_.body, -1.0L * force);
+    const Vector arm = state.Place(Node()) - state.Place(*obstacle_.body);
+    (*forces)[2 * obstacle_.num_nodes + *obstacle_.body] -= arm.x * force.y - arm.y * force.x;
   }
   // The moment as the obstacle sees it.
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
     const Vector place = Position(state), n = obstacle_.surface->Normal(place), arm = place - obstacle_.point;
     const Vector seen{rn * n.x + rt * n.y, rn * n.y - rt * n.x};
-    return {obstacle_.turn == 0.0L ? seen : Turned(seen, obstacle_.turn * state.LoadFactor()),
-            arm.x * seen.y - arm.y * seen.x};
+    return {!Turns() ? seen : Turned(seen, obstacle_.TurnAt(state)), arm.x * seen.y - arm.y * seen.x};
   }
   Vector Velocity(const PlacedState& state) const override {
     if (obstacle_.turn == 0.0L) return obstacle_.motion;
@@ -66,8 +76,11 @@ class ObstacleContact : public Contact {
   }
 
  private:
+  bool Turns() const { return obstacle_.body || obstacle_.turn != 0.0L; }
   // The node as the obstacle sees it.
   Vector Position(const PlacedState& state) const {
+    if (obstacle_.body)
+      return obstacle_.about + Turned(state.Place(Node()) - state.Place(*obstacle_.body), -obstacle_.TurnAt(state));
     const Vector moved = state.Place(Node()) - state.LoadFactor() * obstacle_.motion;
     if (obstacle_.turn == 0.0L) return moved;
     return obstacle_.about + Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
@@ -204,6 +217,13 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     obstacles.emplace(
         obstacle.name,
         MovedObstacle{MakeSurface(obstacle), {obstacle.px, obstacle.py}, {}, 0.0L, {}, obstacle.friction});
+  for (const Obstacle& obstacle : scene.obstacles)
+    if (!obstacle.body.empty()) {
+      MovedObstacle& carried = obstacles.at(obstacle.name);
+      carried.body = numbers.at(obstacle.body);
+      carried.num_nodes = scene.nodes.size();
+      carried.about = {scene.nodes[*carried.body].x, scene.nodes[*carried.body].y};
+    }
   for (const ObstacleMotion& motion : scene.obstacle_motions) {
     MovedObstacle& moved = obstacles.at(motion.obstacle);
     moved.motion = {motion.dx, motion.dy};

@@ -24,6 +24,7 @@ class PlacedState {
       : state_(state), boundaries_(boundaries), shapes_(boundaries.size()) {}
 
   Vector Place(std::size_t node) const { return NodePosition(state_.positions, node); }
+  Real Rotation(std::size_t node) const { return state_.rotations[node]; }
   Real LoadFactor() const { return state_.load_factor; }
   const BoundaryShape& Shape(std::size_t surface) const {
     if (!shapes_[surface]) shapes_[surface].emplace(boundaries_[surface], state_.positions);
@@ -42,6 +43,8 @@ class Contact {
 
   std::size_t Node() const { return node_; }
   Real Friction() const { return friction_; }
+  // Whether a body carries the obstacle.
+  virtual bool OnBody() const { return false; }
   // By its place in the scene; nothing of an obstacle.
   virtual std::optional<std::size_t> TouchedSurface() const { return std::nullopt; }
 

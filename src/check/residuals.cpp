@@ -118,7 +118,8 @@ struct ResidualCheck::Prepared {
     num_touched = touched.size();
     touched_by = BoundaryOfContacts(scene, touched);
     contacts = check::MakeContacts(scene, index, configuration.slip_origins);
-    for (const auto& contact : contacts) gives.push_back(IsAttached(scene.nodes[contact->Node()]));
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      gives.push_back(IsAttached(scene.nodes[contacts[i]->Node()]) || contacts[i]->OnBody());
     std::vector<check::ContactPlace> places;
     for (std::size_t i = 0; i < contacts.size(); ++i) places.push_back({contacts[i]->Node(), touched_by[i]});
     contact_edges = check::ContactEdges(elements, places);
@@ -387,8 +388,7 @@ double ResidualCheck::Give(std::size_t contact) const {
 }
 
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
-  const Real slip = prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to));
-  return static_cast<double>(slip) + Give(contact) * (to.rt[contact] - from.rt[contact]);
+  return static_cast<double>(prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to)));
 }
 
 double ResidualCheck::TotalSlip(std::size_t contact, const CheckedState& state) const {
@@ -419,7 +419,9 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
       bounds[at.body].*part += bounds[at.node].*part;
   for (const Prepared::AttachedNode& at : scene.attached) bounds[at.node] = bounds[at.body];
   CheckedState start;
-  start.positions = scene.start;
+  const auto rotations = scene.start.begin() + static_cast<std::ptrdiff_t>(scene.num_positions);
+  start.positions.assign(scene.start.begin(), rotations);
+  start.rotations.assign(rotations, scene.start.end());
   const check::PlacedState placed = scene.Placed(start);
   const std::vector<double> of_surfaces = scene.LargestOnSurfaces<double>(
       [&](std::size_t node) { return bounds[node].any + bounds[node].x + bounds[node].y; });

@@ -76,6 +76,9 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     of.angle.rate = motion.turn;
     if (motion.turn != 0.0) of.about = of.start = {motion.about_x, motion.about_y};
   }
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    if (const std::string& body = scene.obstacles[i].body; !body.empty())
+      obstacles[i].frame = structure.FrameOfBody(static_cast<int>(index.Node(body)));
 
   std::vector<PlacedBoundary> boundaries(scene.surfaces.size());
   const Eigen::VectorXd force_bounds = structure.ForceBounds();
@@ -95,7 +98,8 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     const Obstacle& obstacle = scene.obstacles[at];
     const MovingFrame& frame = obstacles[at].frame;
     const FixedPoint point = structure.PointOf(node);
-    const bool of_body = structure.AttachmentOf(node) != nullptr, turns = point.frame.angle.dof >= 0;
+    const bool of_body = structure.AttachmentOf(node) != nullptr || !obstacle.body.empty();
+    const bool turns = of_body || point.frame.angle.dof >= 0;
     const bool can_slide = CanSlide(turns || point.frame.origin[0].dof >= 0, turns || point.frame.origin[1].dof >= 0,
                                     obstacle, frame.angle.rate != 0.0);
     std::optional<Eigen::Vector2d> slip_origin;

@@ -33,7 +33,12 @@ ReactionProblem::ReactionProblem(const Scene& scaled, const SceneIndex& index, c
       boundaries_(TouchedBoundaries(scaled)),
       boundary_of_(BoundaryOfContacts(scaled, boundaries_)) {
   for (const ContactCandidate& contact : scaled.contacts) nodes_.push_back(index.Node(contact.node));
-  for (const Obstacle& obstacle : scaled.obstacles) points_.push_back({{obstacle.px, obstacle.py}});
+  for (const Obstacle& obstacle : scaled.obstacles) points_.emplace_back().at = {obstacle.px, obstacle.py};
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (const std::string& body = scaled.obstacles[i].body; !body.empty()) {
+      const MovingFrame frame = released_.FrameOfBody(static_cast<int>(index.Node(body)));
+      points_[i].carried.emplace(FixedPoint{frame, points_[i].at - frame.start});
+    }
   for (const ObstacleMotion& motion : scaled.obstacle_motions) {
     MovingPoint& point = points_[index.Obstacle(motion.obstacle)];
     point.velocity = {motion.dx, motion.dy};
@@ -50,6 +55,7 @@ Eigen::Vector2d ReactionProblem::PlaceOf(std::size_t node, const Eigen::VectorXd
 Eigen::Vector2d ReactionProblem::Centre(const TouchedBoundary& boundary, const Eigen::VectorXd& u, double s) const {
   if (boundary.is_surface) return PlaceOf(first_nodes_[boundary.place], u);
   const MovingPoint& point = points_[boundary.place];
+  if (point.carried) return point.carried->At(u, s);
   return point.about + Eigen::Rotation2Dd(point.turn * s) * (point.at - point.about) + s * point.velocity;
 }
 

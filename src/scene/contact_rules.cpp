@@ -32,6 +32,9 @@ void ContactRules::CheckObstacles() {
   for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
     const Obstacle& obstacle = scene_.obstacles[i];
     const bool sound = checker_.CheckFields(list[i], obstacle, &earlier);
+    if (const Node* const body = checker_.KnownNode(obstacle.body);
+        !obstacle.body.empty() && (body == nullptr || !IsBody(*body)))
+      checker_.Add(list[i].Key("body"), obstacle.body, "must name a body of the scene");
     const ShapeFault fault = FindShapeFault(obstacle);
     if (fault.field.empty()) {
       if (!HasSoundNumbers(obstacle)) continue;
@@ -54,6 +57,8 @@ void ContactRules::CheckContacts(double length) {
     const Node* const node = checker_.KnownNode(contact.node);
     const Obstacle* const obstacle = checker_.KnownObstacle(contact.obstacle);
     const BoundarySurface* const surface = checker_.KnownSurface(contact.surface);
+    if (node != nullptr && obstacle != nullptr && !obstacle->body.empty() && node->body == obstacle->body)
+      checker_.Add(path.Key("node"), contact.node, "must not move with the body that carries the obstacle");
     if (!earlier.insert(contact.Name()).second)
       checker_.Add(path, contact.Name(), "must not be repeated");
     else if (node != nullptr && surface != nullptr)

@@ -194,6 +194,8 @@ void LoadingRules::CheckMotions(const KeyPath& where, std::size_t loading, const
     const ObstacleMotion& motion = obstacles[i];
     const KeyPath path = obstacle_list[i];
     checker_.CheckFields(path, motion);
+    if (const Obstacle* const known = checker_.KnownObstacle(motion.obstacle); known != nullptr && !known->body.empty())
+      checker_.Add(path.Key("obstacle"), motion.obstacle, "must not be carried by a body, here " + known->body);
     if (!moved.insert(motion.obstacle).second)
       checker_.Add(path.Key("obstacle"), motion.obstacle, "must not be repeated");
     const Obstacle* const obstacle = checker_.KnownObstacle(motion.obstacle);

@@ -111,6 +111,7 @@ void Structure::Attach(const Scene& scene, const SceneIndex& index) {
     if (IsBody(node))
       bodies_.push_back({dofs_.Index(number, Field::kPosition, 0), dofs_.Index(number, Field::kPosition, 1),
                          dofs_.Index(number, Field::kRotation, 0)});
+    if (IsBody(node)) body_starts_[number] = {node.x, node.y};
     if (!IsAttached(node)) continue;
     const std::size_t body = index.Node(node.body);
     const Node& at = scene.nodes[body];
@@ -179,13 +180,18 @@ const Attachment* Structure::AttachmentOf(int node) const {
 
 FixedPoint Structure::PointOf(int node) const {
   const Attachment* const attachment = AttachmentOf(node);
-  const int of = attachment == nullptr ? node : attachment->body;
-  const Eigen::Vector2d start = StartPosition(of);
-  FixedPoint point = {{{Coordinate{Dof(of, 0), start.x()}, Coordinate{Dof(of, 1), start.y()}}}};
-  if (attachment == nullptr) return point;
-  point.frame.angle = {dofs_.Dof(of, Field::kRotation, 0), start_values_[dofs_.Index(of, Field::kRotation, 0)]};
-  point.arm = attachment->arm;
-  return point;
+  if (attachment != nullptr) return {FrameOfBody(attachment->body), attachment->arm};
+  const Eigen::Vector2d start = StartPosition(node);
+  return {{{Coordinate{Dof(node, 0), start.x()}, Coordinate{Dof(node, 1), start.y()}}}};
+}
+
+MovingFrame Structure::FrameOfBody(int node) const {
+  const Eigen::Vector2d at = StartPosition(node);
+  const double angle = start_values_[dofs_.Index(node, Field::kRotation, 0)];
+  return {{Coordinate{Dof(node, 0), at.x()}, Coordinate{Dof(node, 1), at.y()}},
+          {dofs_.Dof(node, Field::kRotation, 0), angle},
+          Eigen::Vector2d::Zero(),
+          body_starts_.at(node)};
 }
 
 Eigen::VectorXd Structure::AllValues(const Eigen::VectorXd& u) const {

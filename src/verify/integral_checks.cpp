@@ -84,6 +84,12 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
   if (next && recorded.arc > std::acos(0.5) * chord + kSingular)
     findings_.Report("arc length grows by ", recorded.arc, ", more than a curve with the chord ", chord, " would");
   const double exchanged = std::abs(recorded.work) + std::abs(recorded.stored) + std::abs(recorded.dissipation);
+  // Along the boundary a contact of a body does not give way while it slides.
+  double given = 0.0;
+  for (std::size_t i = 0; i < increment.contacts.size(); ++i)
+    if (before.contacts[i].state != increment.contacts[i].state)
+      given += stage_.check.Give(i) * std::pow(increment.contacts[i].rt, 2) / stage_.Energy();
+  open_ += given;
   findings_.Bound("energies of the increment are out of balance, over F L", imbalance,
                   kEnergy * exchanged +
                       recorded.rounding * (1.0 + std::abs(increment.strain_energy) / stage_.Energy()) +

@@ -85,7 +85,7 @@ void PointChecks::CheckState(const Increment& before, const Increment& at, bool 
     if (stage_.configuration.HasTotalLaw() && stage_.contacts[i].friction > 0.0)
       slip = stage_.check.TotalSlip(i, to);
     else if (in_one_piece)
-      slip = stage_.check.Slip(i, from, to);
+      slip = stage_.check.Slip(i, from, to) + stage_.check.Give(i) * (to.rt[i] - from.rt[i]);
     CheckContact(i, at.contacts[i], to, slip / stage_.scaling.length, tolerance, tolerance_of_slip);
   }
   if (at.solve.exact) CheckSoftContacts(at);

@@ -40,8 +40,7 @@ std::optional<std::vector<std::size_t>> StabilityChecks::FreeComponents(const In
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
     const ContactState state = increment.contacts[i].state;
     if (state == ContactState::kOpen) continue;
-    if (state != ContactState::kStick || of_surfaces_[i] || IsAttached(nodes[stage_.contacts[i].node]))
-      return std::nullopt;
+    if (state != ContactState::kStick || of_surfaces_[i] || stage_.check.Give(i) > 0.0) return std::nullopt;
     pinned[stage_.contacts[i].node] = true;
   }
   std::vector<std::size_t> free;

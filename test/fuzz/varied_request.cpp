@@ -360,7 +360,7 @@ class Variation {
     contact.surface = scene().surfaces.back().name;
     contact.friction = random_.OneOf(std::array<double, 4>{0.0, 0.3, 1.0, 10.0});
     Scene expanded = scene();
-    ExpandBeams(&expanded);
+    ExpandParts(&expanded);
     BoundarySurface& surface = scene().surfaces.back();
     std::vector<Eigen::Vector2d> places;
     for (const std::string& name : surface.nodes) {

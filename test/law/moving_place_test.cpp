@@ -26,11 +26,10 @@ TEST(MovingPlace, GivesLawsTheirDerivatives) {
   const MovingFrame body = {{Coordinate{2}, Coordinate{3}}, {4}, Vector2d::Zero(), {0.3, 0.1}},
                     other = {{Coordinate{0}, Coordinate{-1, 0.4, 0.2}}, {1}, Vector2d::Zero(), {-0.2, 0.5}};
   const FixedPoint point = {body, {0.6, -0.2}}, node = PointOfNode(5, 6);
-  const auto spline = MakeSpline({{-2.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {3.0, 0.5}}, false);
-  const auto plane = std::make_shared<HalfPlane>(Vector2d(0.0, -1.0), Vector2d(0.3, 1.0));
+  const std::shared_ptr<const Surface> spline = MakeSpline({{-2.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {3.0, 0.5}}, false);
+  const std::shared_ptr<const Surface> plane = std::make_shared<HalfPlane>(Vector2d(0.0, -1.0), Vector2d(0.3, 1.0));
   std::vector<std::unique_ptr<const Law>> laws;
-  for (const std::shared_ptr<const Surface>& surface :
-       {std::shared_ptr<const Surface>(spline), std::shared_ptr<const Surface>(plane)})
+  for (const std::shared_ptr<const Surface>& surface : {spline, plane})
     for (const MovingFrame& frame : {MovedFrame({0.0, 0.0}), MovedFrame({0.2, -0.1}, 0.7, {0.4, 0.3}), other})
       for (const FixedPoint& of : {point, node})
         laws.push_back(std::make_unique<RigidPair>(surface, MovingPlace::SeenFrom(frame, of), 0.3));

@@ -103,7 +103,6 @@ class ResidualCheck {
   // Gap() where a node that is over an end of the surface to rounding counts as past the end: of a surface with a
   // radius, the gap changes by the radius there.
   double GapPastEnd(std::size_t contact, const CheckedState& state) const;
-  // With what the contact of a body gives way by its change of rt.
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
   // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body.
   double Give(std::size_t contact) const;

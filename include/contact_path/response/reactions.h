@@ -3,6 +3,7 @@
 #define CONTACT_PATH_RESPONSE_REACTIONS_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
@@ -45,6 +46,7 @@ class ReactionProblem {
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
     double turn = 0.0;  // about a point, before the motion by the velocity
     Eigen::Vector2d about = Eigen::Vector2d::Zero();
+    std::optional<MovingPlace> carried;  // by a body
   };
 
   Scaling scaling_;

@@ -207,6 +207,7 @@ struct Obstacle {
   std::vector<double> points = {};  // of a polyline or a spline: x, y, x, y, ... [length]
   bool closed = false;              // from the last point back to the first
   double fillet = 0.0;  // radius at the corners of a polyline [length]; 0 = a tenth of the largest that its edges admit
+  std::string body = {};  // carries it, from where both are at the start
 };
 
 template <typename P>
@@ -217,7 +218,7 @@ constexpr auto Fields(Of<Obstacle>) {
       Member("ny", &P::ny), Member("friction", &P::friction).Within(Range::kNotNegative),
       Member("radius", &P::radius).In(units::kLength).Within(Range::kZeroOrPositive), Member("inside", &P::inside),
       Member("points", &P::points).In(units::kLength), Member("closed", &P::closed),
-      Member("fillet", &P::fillet).In(units::kLength).Within(Range::kZeroOrPositive));
+      Member("fillet", &P::fillet).In(units::kLength).Within(Range::kZeroOrPositive), Member("body", &P::body));
 }
 
 // A node that may touch an obstacle or a surface, or each node of a group. The name of a candidate is

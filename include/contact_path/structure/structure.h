@@ -50,6 +50,7 @@ class Structure {
   // Null: the node is not attached to a body.
   const Attachment* AttachmentOf(int node) const;
   FixedPoint PointOf(int node) const;
+  MovingFrame FrameOfBody(int node) const;
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
   const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
@@ -124,8 +125,9 @@ class Structure {
   std::vector<PrescribedDof> prescribed_;
   std::vector<std::size_t> oblique_supports_;
   std::vector<Part> parts_;
-  std::vector<std::vector<int>> bodies_;   // components of each
-  std::map<int, Attachment> attachments_;  // by node
+  std::vector<std::vector<int>> bodies_;        // components of each
+  std::map<int, Eigen::Vector2d> body_starts_;  // by node, of the scene
+  std::map<int, Attachment> attachments_;       // by node
   Eigen::SparseMatrix<double> pattern_;
   Eigen::VectorXd residual_units_;
   Eigen::VectorXd force_rounding_;

@@ -89,7 +89,7 @@ class SceneMarkers:
         self.index = {name: i for i, name in enumerate(structure.names)}
         self._loads = (-1, Loads(*np.empty((4, 0))))  # of the stage that was asked for last
         self.reacting = [(self.index[support['node']], support['rotation']) for support in self.request['names']['supports']]
-        self.moving = {name for stage in structure.stages for name, motion in stage.motions.items()
+        self.moving = set(structure.carriers) | {name for stage in structure.stages for name, motion in stage.motions.items()
                        if any(motion[field] for field in ('dx', 'dy', 'turn'))}
         materials = {material['name']: young(material) for material in self.request['scene']['materials']}
         self.moduli = [materials[solid['material']] for solid in self.request['scene']['solids']]

@@ -17,8 +17,10 @@ MOTION = ('angle', 'x', 'y')
 
 def obstacles(path: Increments, rows: np.ndarray, structure: Structure, view: View) -> List[Entry]:
     """For each `trace` of plotly.js and, where it moves, `motion`: its angle [rad] and shift x, y [length] in each step."""
-    table = {name: path[name][rows] for name in ('load_factor', 'stage') if name in path}
-    moving = {name for stage in structure.stages for name in stage.motions}
+    columns = ['load_factor', 'stage'] + [axis + structure.names[body] for body in structure.carriers.values()
+                                           for axis in ('x_', 'y_', 'rotation_')]
+    table = {name: path[name][rows] for name in columns if name in path}
+    moving = set(structure.carriers) | {name for stage in structure.stages for name in stage.motions}
     found = []
     for name in structure.obstacles:
         placement = structure.placement(name, table)

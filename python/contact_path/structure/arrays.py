@@ -9,7 +9,7 @@ from contact_path.increments import Increments
 from contact_path.scene import Scene
 from contact_path.structure.beams import Beams
 from contact_path.structure.expanded import expanded
-from contact_path.structure.obstacles import Boundary, Placement
+from contact_path.structure.obstacles import Boundary, Placement, turned
 from contact_path.structure.outlines import outlines
 from contact_path.structure.solids import Solid
 from contact_path.structure.surfaces import SurfaceCurve
@@ -70,7 +70,9 @@ class Structure:
                              {motion['obstacle']: motion for motion in stage['obstacle_motions']})
                        for stage in request['program'] or [own]]
         self.obstacles = {obstacle['name']: Boundary(obstacle, lambda: outlines(given)) for obstacle in scene['obstacles']}
-        turning = {name for stage in self.stages for name, motion in stage.motions.items() if motion['turn'] != 0.0}
+        # Obstacle -> the body that carries it.
+        self.carriers = {obstacle['name']: index[obstacle['body']] for obstacle in scene['obstacles'] if obstacle['body']}
+        turning = set(self.carriers) | {name for stage in self.stages for name, motion in stage.motions.items() if motion['turn'] != 0.0}
         # Half planes that do not turn: their normals.
         self.normals = {name: boundary.normal for name, boundary in self.obstacles.items()
                         if boundary.flat and name not in turning}
@@ -133,6 +135,12 @@ class Structure:
 
     def placement(self, obstacle: str, increments: Increment | Increments) -> Placement:
         """Where an obstacle is in an increment, or in each increment of a path."""
+        if obstacle in self.carriers:
+            body = self.carriers[obstacle]
+            name = self.names[body]
+            angle = np.asarray(increments['rotation_' + name], dtype=float)
+            at = np.stack([np.asarray(increments[axis + name], dtype=float) for axis in ('x_', 'y_')], axis=-1)
+            return Placement(angle, at - turned(np.broadcast_to(self.initial[body], at.shape), angle))
         placement = Placement()
         for stage, share in zip(self.stages, np.moveaxis(self.shares(increments), -1, 0)):
             if obstacle in stage.motions:
