@@ -148,7 +148,7 @@ contact_path_add_stage(stability LONG OPTIMISED NAMES jump_landings_test jump_te
   stability_problem_test verdicts_test)
 contact_path_add_stage(mpec NAMES increment_problem_test increment_solver_test ipopt_solver_test)
 contact_path_add_stage(branch LONG SHARDS 2 NAMES branch_choices_test branch_events_test branch_method_test branch_order_test
-  branches_test complementarity_test crossing_test curved_surface_test leaning_blocks_test patches_test polynomial_test
+  branches_test complementarity_test crossing_test curved_surface_test leaning_blocks_test polynomial_test
   random_paths_test force_redistribution_test toys_test)
 if(NOT CONTACT_PATH_SANITIZE)
   # It counts allocations, in place of the allocator that a sanitizer brings.

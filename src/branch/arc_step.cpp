@@ -12,7 +12,7 @@ namespace {
 constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
 constexpr int kLocatingAttempts = 6;
 constexpr double kRounded = 10.0;  // turn along a step by a second derivative that is rounding
-constexpr double kOffCurve = 0.7;  // cosine between a chord and its tangent: of a located end, less exact
+constexpr double kOffCurve = 0.7;  // cosine between the chord to a located end and the tangent at the start
 
 // What rounding does not leave of a point, the start of its step tells: the sign of a matrix that is singular to
 // rounding at a regular point, and the sense of a load that hardly changes.
@@ -24,17 +24,16 @@ void KeepSigns(const CurvePoint& start, CurvePoint* end) {
     end->load_sense = start.load_sense;
 }
 
-// A second derivative at an end of the step by which the curve would turn round within a tenth of it, while the
+// A second derivative at the end of the step by which the curve would turn round within a tenth of it, while the
 // tangents at both ends agree, is rounding of a point next to a singular one. The one of the cubic that has the points
 // and the tangents of both ends takes its place.
-void DropRoundedSeconds(Step* step) {
+void DropRoundedSecond(Step* step) {
   const Eigen::Index n = step->normal.size();
-  CurvePoint &start = step->start, &end = step->end;
-  const auto rounded = [&](const CurvePoint& at) { return at.second.head(n).norm() * step->length > kRounded; };
+  const CurvePoint& start = step->start;
+  CurvePoint& end = step->end;
+  if (!(end.second.head(n).norm() * step->length > kRounded)) return;
   const double speed = 1.0 / step->normal.dot(end.first.head(n));  // of arc length by the parameter
   const Eigen::VectorXd chord = 6.0 / step->length * (end.x - start.x);
-  if (rounded(start)) start.second = (chord - 4.0 * start.first - 2.0 * speed * end.first) / step->length;
-  if (!rounded(end)) return;
   const Eigen::VectorXd second = (2.0 * start.first + 4.0 * speed * end.first - chord) / step->length;
   end.second = (second - end.first.head(n).dot(second.head(n)) * end.first) / (speed * speed);
 }
@@ -55,13 +54,10 @@ double ErrorOfPrediction(const ArcEquations& equations, const CurvePoint& start,
   return error.norm();
 }
 
-double Chord(const Step& step) { return (step.end.x - step.start.x).head(step.normal.size()).norm(); }
-
 // Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
-// cosine: smallest between the tangent at the start and the chord.
-bool EndsBeside(const Step& step, double cosine) {
-  const double chord = Chord(step);
-  return chord > tolerances::kSameDirection && step.length < cosine * chord;
+bool EndsBeside(const Step& step) {
+  const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
+  return chord > tolerances::kSameDirection && step.length < kOffCurve * chord;
 }
 
 std::string_view NameOf(EventKind kind) {
@@ -83,8 +79,6 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
                                const StepLimits& limits, TrialStep* trial) {
   const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
   const double tolerance = prediction * length;
-  const double rounding =
-      arc->equations().ResidualUnit() * std::max(tolerances::kNoMove, tolerances::kLastDigits * start.x.norm());
   const Eigen::VectorXd straight = start.x + length * start.first;
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
   const auto error_of = [&](const Correction& correction) {
@@ -93,7 +87,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   const auto good = [&](const Correction& correction) {
     if (!correction.converged) return false;
     const double noise = tolerances::kMargin * std::min(correction.steps.back(), tolerances::kStagnation);
-    return error_of(correction) <= tolerance + std::max(rounding, std::min(noise, kCoarsePrediction * length));
+    return error_of(correction) <= tolerance + std::min(noise, kCoarsePrediction * length);
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
@@ -119,51 +113,22 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   KeepSigns(start, &end);
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
-  if (trial != nullptr) trial->verdict = "beside the curve";
-  if (EndsBeside(result.step, limits.cosine)) return std::nullopt;
-  DropRoundedSeconds(&result.step);
+  DropRoundedSecond(&result.step);
   result.tried = length;
   result.iterations = correction.iterations;
   result.contraction = correction.contraction;
   return result;
 }
 
-// Puts in place of an event one of the ends that lies between the start and the located point of the event, where both
-// are as near as rounding. False: none does.
-bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end, const StepEnds& ends,
-                 StepEvent* event) {
-  if (event->target) return false;
-  const Eigen::Index s = arc.LoadFactor();
-  if (ends.load_factor && (start.x[s] - *ends.load_factor) * (end.x[s] - *ends.load_factor) < 0.0) {
-    *event = StepEvent{event->t};
-    event->target = true;
-    return true;
-  }
-  if (event->sample) return false;
-  for (std::size_t i = 0; i < ends.functions.size(); ++i) {
-    const ArcTarget& target = ends.functions[i];
-    const double before = target.of(start.x), after = target.of(end.x);
-    for (const double value : target.values)
-      if (std::abs(before - value) > target.rounding && (before - value) * (after - value) < 0.0 &&
-          target.sense * (after - before) >= 0.0) {
-        *event = StepEvent{event->t};
-        event->sample = {i, value};
-        return true;
-      }
-  }
-  return false;
-}
-
-// Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate
-// touches zero, as where the load is a cubic of the arc length.
-bool LoadGoesOn(const SmoothArc& arc, const Step& step, const CurvePoint& point) {
-  const Eigen::Index s = arc.LoadFactor();
-  if (!(step.start.first[s] * step.end.first[s] > 0.0)) return false;
-  const Quintic load = step.InterpolateLinear([s](const Eigen::VectorXd& x) { return x[s]; });
-  const double t = step.normal.dot((point.x - step.start.x).head(step.normal.size()));
-  const double third = Evaluate(Derivative(Derivative(Derivative(load))), t), second = point.second[s];
-  // The extreme of the rate, by its parabola.
-  return second * second <= 2.0 * tolerances::kRate * arc.equations().ResidualUnit() * std::abs(third);
+// Puts the target in place of an event whose located point is beyond it, where both are as near as rounding. False: it
+// is not.
+bool PassesTheTarget(const CurvePoint& start, const CurvePoint& end, Eigen::Index s, const StepEnds& ends,
+                     StepEvent* event) {
+  if (event->target || !ends.load_factor) return false;
+  if (!((start.x[s] - *ends.load_factor) * (end.x[s] - *ends.load_factor) < 0.0)) return false;
+  *event = StepEvent{event->t};
+  event->target = true;
+  return true;
 }
 
 // Whether the inequality that was to fail at `point` holds there, by more than what counts as zero at an event: the
@@ -174,65 +139,30 @@ bool HoldsAt(const ArcEquations& equations, const StepEvent& event, const CurveP
 }
 
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
-bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
-  const StepEnds* ends = &wanted;
-  std::optional<StepEnds> fewer;  // of them
-  at->event = FirstEvent(arc, at->step, *ends);
+bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& ends, ArcStep* at) {
+  at->event = FirstEvent(arc, at->step, ends);
   if (at->event.Kind() == EventKind::kNone) return true;
-  const Step whole = at->step;
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
-    std::optional<CurvePoint> point = Locate(arc, at->step, at->event, *ends);
-    while (!point && at->event.sample) {
-      // The function is known less well than the value asks for: the path goes on without that increment.
-      if (!fewer) ends = &fewer.emplace(wanted);
-      std::vector<double>& values = fewer->functions[at->event.sample->target].values;
-      values.erase(std::find(values.begin(), values.end(), at->event.sample->value));
-      at->event = FirstEvent(arc, at->step, *ends);
-      if (at->event.Kind() == EventKind::kNone) return true;
-      point = Locate(arc, at->step, at->event, *ends);
-    }
+    std::optional<CurvePoint> point = Locate(arc, at->step, at->event, ends);
     if (!point) return false;
     KeepSigns(at->step.start, &*point);
-    if (at->event.singular) point->BeSingular();
-    if (at->event.Kind() == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(*arc, whole, *point)) {
-      at->event.turns = false;
-      at->event.near = true;
-      point->is_limit = false;
-      point->load_sense = at->step.start.load_sense;
-    }
     if (HoldsAt(arc->equations(), at->event, *point)) {
       at->event.fails.reset();
       at->event.near = true;
     }
-    if (PassesAnEnd(*arc, at->step.start, *point, *ends, &at->event)) continue;
-    const StepEvent found = at->event;
+    if (PassesTheTarget(at->step.start, *point, arc->LoadFactor(), ends, &at->event)) continue;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
-    if (EndsBeside(at->step, kOffCurve)) return false;
+    if (EndsBeside(at->step)) return false;
     if (!(at->step.length > tolerances::kNoMove)) {
       at->step.length = 0.0;
       return true;
     }
-    DropRoundedSeconds(&at->step);
-    const StepEvent earlier = FirstEvent(arc, at->step, *ends);
+    DropRoundedSecond(&at->step);
+    const StepEvent earlier = FirstEvent(arc, at->step, ends);
     if (earlier.Kind() == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
-    // The value of a sample is rounding of a short step where it leads to this point again.
-    const auto &before = found.sample, &again = earlier.sample;
-    if (before && again && before->target == again->target && before->value == again->value) return true;
     at->event = earlier;
   }
   return false;
-}
-
-// Where the matrix is singular to rounding there are no second derivatives, and no event is found on a step that ends
-// there. A longer one ends beyond. Nothing: none does.
-std::optional<ArcStep> StepBeyond(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
-                                  const StepEnds& ends) {
-  for (const double factor : {2.0, 4.0, 8.0}) {
-    if (factor * length > limits.largest) break;
-    std::optional<ArcStep> step = TryStep(arc, start, factor * length, kCoarsePrediction, limits, nullptr);
-    if (step && step->step.end.nullity == 0 && EndAtFirstEvent(arc, ends, &*step)) return step;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -252,16 +182,7 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
     if (tried < limits.smallest) return std::nullopt;
     TrialStep* const trial = limits.on_trial ? &said : nullptr;
     std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits, trial);
-    // Where there are no second derivatives the predictor is no better than the tangent. A long step might leap then.
-    if (!step && start.nullity > 0 && tried <= tolerances::kNextToStart * limits.largest)
-      step = TryStep(arc, start, tried, kCoarsePrediction, limits, trial);
-    const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
-    bool good = step && EndAtFirstEvent(arc, ends, &*step);
-    if (ends_singular && !(good && step->event.Kind() != EventKind::kNone)) {
-      std::optional<ArcStep> beyond = StepBeyond(arc, start, tried, limits, ends);
-      good = good || beyond;
-      if (beyond) step = std::move(beyond);
-    }
+    const bool good = step && EndAtFirstEvent(arc, ends, &*step);
     if (trial != nullptr) {
       if (good) {
         said.verdict = "accepted";

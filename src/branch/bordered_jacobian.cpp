@@ -27,18 +27,13 @@ bool BorderedJacobian::ChooseBorders(const Eigen::VectorXd& x, Eigen::Index k) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns_);
   row.head(motion_) = t_;
   if (!solver.Factorize(equations_.TransposedJacobian(x), row, equations_.InFrame())) return false;
-  if (!solver.HasLu()) {
-    if (solver.Nullity() != k || solver.LeftNullSpace().cols() != k) return false;
-    SetBorders(solver.NullSpace(), solver.LeftNullSpace().topRows(equations));
-  } else {
-    if (solver.Nullity() > 0) return false;
-    Eigen::MatrixXd right(unknowns_, k), left(equations, k);
-    for (Eigen::Index j = 0; j < k; ++j) {
-      right.col(j) = solver.Solve(Generic(equations, j), 0.0);
-      left.col(j) = solver.SolveTransposed(Generic(unknowns_, j)).head(equations);
-    }
-    SetBorders(right, left);
+  if (!solver.HasLu()) return false;
+  Eigen::MatrixXd right(unknowns_, k), left(equations, k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    right.col(j) = solver.Solve(Generic(equations, j), 0.0);
+    left.col(j) = solver.SolveTransposed(Generic(unknowns_, j)).head(equations);
   }
+  SetBorders(right, left);
   return v_.allFinite() && b_.allFinite();
 }
 

@@ -12,8 +12,6 @@
 namespace contact_path {
 namespace {
 
-constexpr int kMostPivots = 200;
-
 // Of two unit vectors [rad].
 double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
@@ -92,18 +90,9 @@ bool BranchFinder::TryStates(const States& states, std::vector<Branch>* branches
   return settled;
 }
 
-bool BranchFinder::TrySolution(const States& states, bool degenerate, double load_sense,
-                               std::vector<Branch>* branches) {
-  if (TryStates(states, branches, load_sense)) return true;
-  if (!degenerate) return false;
-  const std::optional<States> others = PivotFrom(states, load_sense, nullptr);
-  return others && *others != states && TryStates(*others, branches, load_sense);
-}
-
 std::optional<States> BranchFinder::PivotFrom(States states, double load_sense, const RateProblem* condensed) {
   std::set<States> seen;
-  bool together = true;
-  for (int pivot = 0; pivot < kMostPivots && !Cancelled(); ++pivot) {
+  while (!Cancelled() && seen.insert(states).second) {
     std::optional<std::vector<Limit>> broken = BrokenOf(states, load_sense, condensed);
     if (!broken) return std::nullopt;
     const auto rule_of = [&, now = states](const Limit& limit) -> const LimitRule& {
@@ -115,17 +104,7 @@ std::optional<States> BranchFinder::PivotFrom(States states, double load_sense, 
         std::remove_if(broken->begin(), broken->end(), [&](const Limit& limit) { return rule_of(limit).OfPiece(); }),
         broken->end());
     if (broken->empty()) return states;
-    together = together && seen.insert(states).second;
-    if (!together) broken->resize(1);
-    for (const Limit& limit : *broken) {
-      const auto i = static_cast<std::size_t>(limit.law);
-      // A law that ceases to be idle may have moved from its reference, and cannot be held there.
-      const Modes& modes = options_[i];
-      const int next = rule_of(limit).next;
-      const auto acts = [&](const Mode& mode) { return !laws_[i].In(mode).idle; };
-      const bool cannot = !laws_[i].In(next).idle && laws_[i].In(next).held == next && !HasState(modes, next);
-      states[i] = cannot ? std::find_if(modes.begin(), modes.end(), acts)->state : next;
-    }
+    for (const Limit& limit : *broken) states[static_cast<std::size_t>(limit.law)] = rule_of(limit).next;
   }
   return std::nullopt;
 }
@@ -138,24 +117,6 @@ bool BranchFinder::Excluded(const States& states, const RateProblem& condensed) 
     return true;
   return condensed.Broken(states, *rates, 1.0, tolerance_, tolerances::kSameTangent, nullptr) &&
          condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kSameTangent, nullptr);
-}
-
-void BranchFinder::TryOtherModesOfTheSameDofs(std::vector<Branch>* branches) {
-  for (std::size_t b = 0; b < branches->size(); ++b)
-    for (const std::vector<std::size_t>& group : redundant_.OfTheSameDofs()) {
-      Modes modes = (*branches)[b].modes;
-      const std::function<void(std::size_t)> vary = [&](std::size_t k) {
-        if (k == group.size()) {
-          Try(modes, branches);
-          return;
-        }
-        for (const Mode& mode : options_[group[k]]) {
-          modes[group[k]] = mode;
-          vary(k + 1);
-        }
-      };
-      if (!Cancelled()) vary(0);
-    }
 }
 
 Tangents BranchFinder::TangentsOf(const Modes& modes, Eigen::VectorXd* x) {
@@ -272,27 +233,24 @@ std::optional<BranchFinder::Ahead> BranchFinder::LookAhead(const Eigen::VectorXd
 }
 
 bool BranchFinder::IsReversed(const Eigen::VectorXd& first) const {
-  return (first.head(NumMotion()) + arrival_.direction).norm() < tolerances::kSameTangent &&
-         Sliding(system_.modes(), first.head(NumMotion()) + arrival_.direction, true) == 0;
+  return (first.head(NumMotion()) + arrival_.direction).norm() < tolerances::kSameTangent;
 }
 
-int BranchFinder::Sliding(const Modes& modes, const Eigen::VectorXd& motion, bool moving) const {
+int BranchFinder::SlidingAtRest(const Branch& branch) const {
   int ports = 0;
   for (std::size_t i = 0; i < laws_.size(); ++i) {
-    const StateRule& state = laws_[i].In(modes[i]);
-    const bool counts = !moving || (laws_[i].Curved() && state.held == point_.modes[i].state);
-    for (std::size_t p = 0; state.slides && counts && p < laws_[i].NumPorts(); ++p)
-      if (state.ports[p].Follows() &&
-          (Rate(laws_[i].TravelRate(p, point_.u, point_.s, point_.modes[i].piece, motion, motion[NumMotion() - 1]))
-               .Sign() != 0) == moving)
+    const StateRule& state = laws_[i].In(branch.modes[i]);
+    for (std::size_t p = 0; state.slides && p < laws_[i].NumPorts(); ++p)
+      if (state.ports[p].Follows() && Rate(laws_[i].TravelRate(p, point_.u, point_.s, point_.modes[i].piece,
+                                                               branch.direction, branch.direction[NumMotion() - 1]))
+                                              .Sign() == 0)
         ++ports;
   }
   return ports;
 }
 
 bool BranchFinder::IsPlainer(const Branch& branch, const Branch& other) const {
-  const int idle = Sliding(branch.modes, branch.direction, false),
-            others = Sliding(other.modes, other.direction, false);
+  const int idle = SlidingAtRest(branch), others = SlidingAtRest(other);
   if (idle != others) return idle < others;
   return branch.reaction_rate < other.reaction_rate && !SameReactions(branch, other);
 }

@@ -38,25 +38,15 @@ class BranchFinder {
   bool Try(const Modes& modes, std::vector<Branch>* branches, double load_sense = 1.0);
   // Try() with these states, on the pieces onto which each direction leads.
   bool TryStates(const States& states, std::vector<Branch>* branches, double load_sense = 1.0);
-  // TryStates() with the solution of the rates for this sense of the load, whose rates hide some of the states if it is
-  // degenerate: then those, too, to which the leading signs lead from there.
-  bool TrySolution(const States& states, bool degenerate, double load_sense, std::vector<Branch>* branches);
 
-  // Principal pivoting from these states to some that break no limit where the load changes in this sense: laws
-  // whose limits are broken change their states, all at once until states come back, from then on only
-  // the first of them. condensed: null, or the rate problem whose rates tell what is broken. Nothing: there are no
-  // rates, or no end.
+  // Principal pivoting from these states to some that break no limit where the load changes in this sense: laws whose
+  // limits are broken change their states, all at once. condensed: null, or the rate problem whose rates tell what is
+  // broken. Nothing: there are no rates, or states come back.
   std::optional<States> PivotFrom(States states, double load_sense, const RateProblem* condensed);
 
   // Whether laws are redundant with these states, or their rates are broken in both directions by far more than
   // rounding, or the structure starts as a mechanism with them.
   bool Excluded(const States& states, const RateProblem& condensed) const;
-
-  // Where several laws hold the same dofs, others of their modes may hold them with less: tries them, group by group.
-  void TryOtherModesOfTheSameDofs(std::vector<Branch>* branches);
-
-  // Whether each combination of the options has laws that are redundant.
-  bool AllRedundant() const { return redundant_.AmongAll(options_); }
 
   int rigid_modes() const { return rigid_modes_; }
 
@@ -92,9 +82,8 @@ class BranchFinder {
   std::optional<Ahead> LookAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second);
 
   bool IsReversed(const Eigen::VectorXd& first) const;
-  // How many ports slide by name in these modes and move, or do not; of moving ones, on curves and in laws that were
-  // held at the point: over a sharp curve the load changes far more than a node moves. motion: (du, ds).
-  int Sliding(const Modes& modes, const Eigen::VectorXd& motion, bool moving) const;
+  // How many ports slide by name along the branch and do not move.
+  int SlidingAtRest(const Branch& branch) const;
   // Of two branches with one direction of motion: whether the first is to be kept. Walls that hold a node have several
   // states that do; those with the least forces are kept, whatever the order of the laws, and whichever way the
   // tangents of the walls point.

@@ -46,8 +46,7 @@ void TryAll(const Options& options, const std::function<bool(const Modes&)>& exc
 }
 
 // The solutions of the complementarity problem of the rates, for both senses of the load. Whether they settle both: a
-// direction leads on, or is the branch of arrival; at a start the sense that is not wanted settles itself. Where the
-// solution is not known to exist, a sense for which none is found counts as settled, too.
+// direction leads on, or is the branch of arrival; at a start the sense that is not wanted settles itself.
 bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, BranchFinder* finder, BranchSet* result) {
   bool both = true;
   for (const double sense : {1.0, -1.0}) {
@@ -55,10 +54,14 @@ bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, Br
     const bool unwanted = arrival.is_start && arrival.parameter.IsLoadFactor() &&
                           sense * arrival.direction[arrival.direction.size() - 1] < 0.0;
     if (unwanted) continue;
-    const std::vector<RateSolution> solutions = problem.Solve(sense);
-    bool settled = solutions.empty() && !problem.unique();
-    for (const RateSolution& solution : solutions) {
-      settled = finder->TrySolution(solution.states, solution.degenerate, sense, &result->branches) || settled;
+    const std::vector<States> solutions = problem.Solve(sense);
+    bool settled = false;
+    for (const States& solution : solutions) {
+      bool leads_on = finder->TryStates(solution, &result->branches, sense);
+      // Rates of zero hide some of the states: the leading signs lead to them.
+      const std::optional<States> others = leads_on ? std::nullopt : finder->PivotFrom(solution, sense, nullptr);
+      if (others && *others != solution) leads_on = finder->TryStates(*others, &result->branches, sense);
+      settled = settled || leads_on;
       ++result->combinations;
     }
     both = both && settled;
@@ -117,7 +120,6 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   }
   result.weakly_active = static_cast<int>(weakly_active.size());
   BranchFinder finder(structure, laws, point, options, arrival, tolerance, cancelled);
-  if (finder.AllRedundant()) return result;
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
   // pieces of a rigid law meet, whose curvatures differ. Compliant laws pass from piece to piece all the time: then
   // there is a problem for each combination of pieces.
@@ -127,10 +129,7 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedLaws && !arrival.singular &&
                          entries <= kMostCondensed;
   const bool few_enough = combinations <= kMostCombinations;
-  // Where there are too many of them, rates on the pieces of now lead to the states; their branches lie on the next
-  // pieces, which have the same tangents where a law is compliant.
-  if (condenses && (!between_pieces || (!few_enough && !between_rigid)))
-    problem.emplace(structure, laws, point, natural, weakly_active, arrival.direction);
+  if (condenses && !between_pieces) problem.emplace(structure, laws, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   // Curvatures of pieces differ.
   std::map<std::vector<int>, const RateProblem> on_pieces;
@@ -147,10 +146,9 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   bool solved = false;
   if (condensed != nullptr) {
     const RateComplementarity complementarity(laws, *condensed, options, weakly_active);
-    const bool unique = complementarity.unique() && !between_pieces;
+    const bool unique = complementarity.unique();
     if (complementarity.exists() && (unique || !few_enough)) {
       solved = TrySolutions(complementarity, arrival, &finder, &result) && !result.branches.empty();
-      finder.TryOtherModesOfTheSameDofs(&result.branches);
       result.complete_by = unique ? Completeness::kOnlySolution : Completeness::kNone;
     }
   }
@@ -159,14 +157,12 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
     if (few_enough)
       TryAll(options, excluded, &finder, &result);
     else
-      TryLikely(laws, options, between_pieces ? nullptr : condensed, &finder, &result);
+      TryLikely(laws, options, condensed, &finder, &result);
   }
   if (result.branches.empty() && result.complete_by == Completeness::kNone && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);
     result.complete_by = Completeness::kAllCombinations;
   }
-  if (result.branches.empty() && condensed != nullptr)
-    finder.Try(ModesWith(StatesOf(natural), options, point), &result.branches);  // for its rigid modes
   result.rigid_modes = finder.rigid_modes();
   result.cancelled = finder.Cancelled();
   return result;

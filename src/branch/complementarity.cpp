@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "contact_path/equations/measured.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -83,8 +82,8 @@ class Tableau {
 
 // By Lemke's method with the covering vector `cover` > 0: which z are basic. Nothing where it ends on a ray, or the
 // pivots are lost in rounding.
-std::optional<std::vector<bool>> SolveByLemke(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
-                                              const Eigen::VectorXd& cover) {
+std::optional<ComplementaritySolution> SolveByLemke(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
+                                                    const Eigen::VectorXd& cover) {
   const Eigen::Index n = M.rows();
   Eigen::VectorXd changed = q;
   const double size = q.lpNorm<Eigen::Infinity>();
@@ -115,26 +114,19 @@ std::optional<std::vector<bool>> SolveByLemke(const Eigen::MatrixXd& M, const Ei
   return std::nullopt;
 }
 
-// Which of the basic variables of this basis are zero. Nothing: one is negative, and the pivots were lost in rounding.
-std::optional<ComplementaritySolution> Measure(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
-                                               std::vector<bool> second) {
+// Whether no basic variable of this basis is negative: otherwise the pivots were lost in rounding.
+bool Holds(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const ComplementaritySolution& second) {
   const Eigen::Index n = M.rows();
-  ComplementaritySolution solution{std::move(second), {}};
   // z of the pairs in `second`, w of the others: M_zz z = -q, w - M_wz z = q.
   Eigen::MatrixXd equations = Eigen::MatrixXd::Identity(n, n);
   for (Eigen::Index p = 0; p < n; ++p)
-    if (solution.second[static_cast<std::size_t>(p)]) equations.col(p) = -M.col(p);
+    if (second[static_cast<std::size_t>(p)]) equations.col(p) = -M.col(p);
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(equations);
   const Eigen::VectorXd values = lu.solve(q);
   // q is known to the tolerance of rates.
   const double error = (tolerances::kRate + tolerances::kLastDigits / lu.rcond()) *
                        std::max(values.lpNorm<Eigen::Infinity>(), q.lpNorm<Eigen::Infinity>());
-  for (Eigen::Index p = 0; p < n; ++p) {
-    const int sign = Measured{values[p], error}.Sign();
-    if (sign < 0) return std::nullopt;
-    if (sign == 0) solution.degenerate.push_back(p);
-  }
-  return solution;
+  return values.minCoeff() >= -error;
 }
 
 }  // namespace
@@ -142,11 +134,9 @@ std::optional<ComplementaritySolution> Measure(const Eigen::MatrixXd& M, const E
 std::vector<ComplementaritySolution> SolveComplementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
   const Eigen::Index n = M.rows();
   std::vector<ComplementaritySolution> solutions;
-  const auto note = [&](std::optional<std::vector<bool>> second) {
-    if (!second) return;
-    std::optional<ComplementaritySolution> solution = Measure(M, q, *std::move(second));
-    const auto same = [&](const ComplementaritySolution& other) { return other.second == solution->second; };
-    if (solution && std::none_of(solutions.begin(), solutions.end(), same)) solutions.push_back(*std::move(solution));
+  const auto note = [&](const std::optional<ComplementaritySolution>& second) {
+    if (second && Holds(M, q, *second) && std::find(solutions.begin(), solutions.end(), *second) == solutions.end())
+      solutions.push_back(*second);
   };
   note(SolveByLemke(M, q, Eigen::VectorXd::Ones(n)));
   if (HasOneSolutionForEach(M)) return solutions;
@@ -157,9 +147,9 @@ std::vector<ComplementaritySolution> SolveComplementarity(const Eigen::MatrixXd&
   note(SolveByLemke(M, q, uneven));
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(M);
   if (!(lu.rcond() > tolerances::kSingularPivot)) return solutions;
-  std::optional<std::vector<bool>> first = SolveByLemke(lu.inverse(), -lu.solve(q), Eigen::VectorXd::Ones(n));
+  std::optional<ComplementaritySolution> first = SolveByLemke(lu.inverse(), -lu.solve(q), Eigen::VectorXd::Ones(n));
   if (first) first->flip();
-  note(std::move(first));
+  note(first);
   return solutions;
 }
 

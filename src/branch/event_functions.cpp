@@ -24,14 +24,6 @@ Quintic FunctionOf(const ArcEquations& equations, const Step& step, const Limit&
   return equations.IsOfRate(constraint) ? Derivative(value) : value;
 }
 
-// The rounding of a rate of slip. Among stiff parts its bound is by far larger than the error that is computed.
-double ErrorOfSlip(SmoothArc* arc, const Step& step, const Limit& slip, const Quintic& rate) {
-  const double bound = tolerances::kRate * arc->equations().ResidualUnit();
-  if (bound <= tolerances::kRate || !FirstNegative(rate, step.length, tolerances::kRate)) return bound;
-  const double error = arc->ErrorOfRate(arc->equations().Gradient(slip, step.end.x), step.end);
-  return std::clamp(tolerances::kMargin * error, tolerances::kRate, bound);
-}
-
 // By how much the cubic interpolation of the same ends differs from the quintic at the middle.
 double CubicDifference(const Quintic& quintic, double length) {
   const Quintic derivative = Derivative(quintic);
@@ -114,28 +106,20 @@ bool IsZeroAt(const ArcEquations& equations, const Limit& constraint, const Cros
 
 // Where the determinant has changed its sign on the step: puts the crossing in the place of the first event, or beside
 // it where both coincide. False: no crossing explains the change of sign.
-bool LookForCrossing(SmoothArc* arc, const Step& step, const StepEnds& ends, StepEvent* first) {
+bool LookForCrossing(SmoothArc* arc, const Step& step, StepEvent* first) {
   ArcEquations& equations = arc->equations();
   bool broken = false;
   std::optional<LocatedCrossing> found = CrossingOn(arc, step, 0.0, step.length, 1, &broken);
   if (!found && !broken) found = CrossingOn(arc, step, 0.0, step.length, 0, &broken);
+  if (!found) return false;
   const EventKind kind = first->Kind();
-  if (!found) {
-    if (broken || kind != EventKind::kLimitPoint || step.length > tolerances::kNextToStart) return false;
-    // Rounding hides the points next to a limit point at which several curves cross.
-    const std::optional<CurvePoint> limit = Locate(arc, step, *first, ends);
-    first->singular = limit && arc->MovedByRounding(limit->x, step.normal) > tolerances::kSamePoint;
-    return first->singular;
-  }
   const CurveDerivatives& along = found->at.along;
   const Eigen::Index s = arc->LoadFactor();
   const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * equations.ResidualUnit();
   const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
   const bool coincides = (kind == EventKind::kContactEvent && IsZeroAt(equations, *first->fails, found->at)) ||
                          (kind == EventKind::kLimitPoint && is_level);
-  // A crossing at the start is where the step has come from.
-  const bool comes_first = found->t > tolerances::kNoMove && found->t <= first->t;
-  if (!coincides && !comes_first) return true;
+  if (!coincides && found->t > first->t) return true;
   if (!coincides) *first = StepEvent();
   first->t = found->t;
   first->turns = first->turns || (!coincides && turns);
@@ -174,17 +158,16 @@ std::optional<double> FirstTurn(const Quintic& load_factor, const Step& step) {
   return std::nullopt;
 }
 
-// Where the load factor first is `target` on (0, length]; nothing if it is not, or at the start.
+// Where the load factor first is `target` on (0, length], which it is not at the start; nothing if it is not.
 std::optional<double> FirstAt(Quintic load, double target, double length) {
   load[0] -= target;
-  if (load[0] == 0.0) return std::nullopt;
   if (load[0] < 0.0)
     for (double& coefficient : load) coefficient = -coefficient;
   return FirstNegative(load, length, 0.0);
 }
 
-// Where the quintic comes to a value on (0, length], in the sense that is wanted. At a start that has the value to
-// rounding, not there, and not before the quintic has left the value by more. An end that has the value to rounding is
+// Where the quintic comes to a value on (0, length], in the sense that is wanted; not at a start that has it to
+// rounding. An end that has the value to rounding is
 // where the quintic comes to it: the next step starts there, and does not come to it again.
 std::optional<double> FirstAtValue(Quintic function, double value, double rounding, double sense, double length) {
   function[0] -= value;
@@ -194,16 +177,11 @@ std::optional<double> FirstAtValue(Quintic function, double value, double roundi
     for (std::size_t k = 0; k + 1 < function.size(); ++k) function[k] = function[k + 1];
     function.back() = 0.0;
   }
-  const auto has_left = [&](double end) {
-    for (std::size_t i = 0; i < 6; ++i)
-      if (std::abs(Evaluate(off, QuinticNode(i, end))) > rounding) return true;
-    return false;
-  };
   int count = 0;
   const std::array<double, 5> roots = Roots(function, length, &count);
   for (int i = 0; i < count; ++i) {
     const double root = roots[static_cast<std::size_t>(i)];
-    if (sense * Evaluate(slope, root) >= 0.0 && (!starts_there || has_left(root))) return root;
+    if (sense * Evaluate(slope, root) >= 0.0) return root;
   }
   const double at_end = Evaluate(off, length);
   if (!starts_there && std::abs(at_end) <= rounding && sense * (at_end - off[0]) >= 0.0) return length;
@@ -356,11 +334,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   }
   for (const Limit& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
-    const double zero =
-        equations.IsOfRate(constraint) ? ErrorOfSlip(arc, step, constraint, quintic) : arc->RoundingOf(constraint);
+    const double zero = equations.IsOfRate(constraint) ? tolerances::kRate : arc->RoundingOf(constraint);
     double where = 0.0;
-    // A margin that is zero where the step begins, and within its error up to the end, is no event.
-    if (std::abs(quintic[0]) <= zero && Minimum(quintic, target.value_or(step.length), &where) >= -zero) continue;
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider({*t, constraint});
       continue;
@@ -372,7 +347,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
       consider(near_at(where));
   }
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider({*t, {}, true});
-  if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, ends, &first)) return too_long;
+  if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, &first)) return too_long;
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.Kind() == EventKind::kNone && equations.BeyondReach(step.end.x)) return too_long;
   // Whatever lies behind the target, however near, is not of this path.

@@ -78,15 +78,8 @@ Eigen::Vector2d TotalForce(const Acting& node, const Laws& laws, const PathPoint
 // Vertices of the polytope { weights >= 0 : sum of weight . edge = force }: at most two edges carry.
 std::vector<Weights> Vertices(const std::vector<Edge>& edges, const Eigen::Vector2d& force, double tolerance) {
   std::vector<Weights> vertices;
-  const auto add = [&](Weights weights) {
-    for (double& weight : weights) {
-      if (weight < -tolerance) return;
-      weight = std::max(weight, 0.0);
-    }
-    vertices.push_back(std::move(weights));
-  };
   const Weights none(edges.size(), 0.0);
-  if (force.norm() <= tolerance) add(none);
+  if (force.norm() <= tolerance) vertices.push_back(none);
   for (std::size_t a = 0; a < edges.size(); ++a) {
     const Eigen::Vector2d& g = edges[a].force;
     if (!(g.norm() > 0.0)) continue;
@@ -94,7 +87,7 @@ std::vector<Weights> Vertices(const std::vector<Edge>& edges, const Eigen::Vecto
     if (alone > tolerance && (force - alone * g).norm() <= tolerance) {
       Weights weights = none;
       weights[a] = alone;
-      add(std::move(weights));
+      vertices.push_back(std::move(weights));
       continue;  // every pair with it is the same
     }
     for (std::size_t b = a + 1; b < edges.size(); ++b) {
@@ -106,7 +99,7 @@ std::vector<Weights> Vertices(const std::vector<Edge>& edges, const Eigen::Vecto
       Weights weights = none;
       weights[a] = both[0];
       weights[b] = both[1];
-      add(std::move(weights));
+      vertices.push_back(std::move(weights));
     }
   }
   return vertices;

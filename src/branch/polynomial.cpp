@@ -9,7 +9,6 @@ namespace {
 // Root of `polynomial` between a and b, where it has opposite signs: bisection and secant in turn, to rounding.
 double Bracketed(const Quintic& polynomial, double a, double b) {
   double fa = Evaluate(polynomial, a), fb = Evaluate(polynomial, b);
-  if (fa == 0.0) return a;
   for (int i = 0; i < 200 && fb != 0.0; ++i) {
     const double secant = b - fb * (b - a) / (fb - fa);
     const double middle = 0.5 * (a + b);

@@ -223,16 +223,15 @@ void RateComplementarity::Build(const RateProblem& rates) {
             HasOneSolutionForEach(matrix_);
 }
 
-std::vector<RateSolution> RateComplementarity::Solve(double load_sense) const {
-  std::vector<RateSolution> solutions;
+std::vector<States> RateComplementarity::Solve(double load_sense) const {
+  std::vector<States> solutions;
   for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_)) {
-    solutions.push_back({{}, !solution.degenerate.empty()});
-    States& states = solutions.back().states;
+    States& states = solutions.emplace_back();
     for (const Modes& option : options_) states.push_back(option.front().state);
     for (std::size_t k = 0; k < base_.size(); ++k) states[static_cast<std::size_t>(weakly_active_[k])] = base_[k];
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       int& state = states[static_cast<std::size_t>(weakly_active_[pairs_[p].law])];
-      const bool moves = solution.second[p] == pairs_[p].motion_is_second;
+      const bool moves = solution[p] == pairs_[p].motion_is_second;
       // Motions both ways are those of no force: the first one stands for both.
       if (moves && state == base_[pairs_[p].law]) state = pairs_[p].next;
     }

@@ -99,14 +99,11 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
   }
   if (!motions.allFinite()) return;
   motion_.resize(num_ports_, motions.cols());
-  travelled_.resize(num_ports_);
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
     const auto i = static_cast<std::size_t>(weakly_active_[k]);
-    const PortReals reference = laws[i].ReferenceAt(point.u, point.s, modes[i].piece);
     const PortsAt& at = ports[k];
     for (std::size_t p = 0; p < laws[i].NumPorts(); ++p) {
       const Eigen::Index row = first_port_[k] + static_cast<Eigen::Index>(p);
-      travelled_[row] = at[p].motion - reference[p];
       for (Eigen::Index j = 0; j < motions.cols(); ++j)
         motion_(row, j) = at.Rate(at[p].gradient, motions.col(j), j == 0 ? 1.0 : 0.0);
     }
@@ -208,8 +205,6 @@ std::optional<Limit> RateProblem::Broken(const States& states, const CondensedRa
         if (value > active.force * rule.unit) continue;
       } else {
         const Eigen::Index port = first_port_[k] + static_cast<Eigen::Index>(rule.port);
-        // An idle law that may change its state is at its limit.
-        if (!rule.OfRate() && !state.idle && rule.sign * travelled_[port] > active.motion) continue;
         rate = rule.sign * rates.motion[port];
       }
       if (sign * rate >= -tolerance * (rule.OfForces() ? force * rule.unit : 1.0)) continue;

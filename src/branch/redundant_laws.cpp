@@ -45,31 +45,6 @@ bool RedundantLaws::Among(const States& states) const {
   return std::any_of(by_dofs_.begin(), by_dofs_.end(), [&](const auto& of) { return AmongThese(of.second, states); });
 }
 
-std::vector<std::vector<std::size_t>> RedundantLaws::OfTheSameDofs() const {
-  std::vector<std::vector<std::size_t>> groups;
-  for (const auto& [dofs, laws] : by_dofs_) {
-    if (laws.size() < 2) continue;
-    groups.emplace_back();
-    for (const Holding& holding : laws) groups.back().push_back(holding.law);
-  }
-  return groups;
-}
-
-bool RedundantLaws::AmongAll(const std::vector<Modes>& options) const {
-  States states(options.size(), 0);
-  // From the law k of these on.
-  const std::function<bool(const std::vector<Holding>&, std::size_t)> in_each = [&](const std::vector<Holding>& laws,
-                                                                                    std::size_t k) {
-    if (k == laws.size()) return AmongThese(laws, states);
-    const Modes& modes = options[laws[k].law];
-    return std::all_of(modes.begin(), modes.end(), [&](const Mode& mode) {
-      states[laws[k].law] = mode.state;
-      return in_each(laws, k + 1);
-    });
-  };
-  return std::any_of(by_dofs_.begin(), by_dofs_.end(), [&](const auto& of) { return in_each(of.second, 0); });
-}
-
 bool RedundantLaws::AmongThese(const std::vector<Holding>& laws, const States& states) const {
   const Eigen::Index q = laws.front().gradients.front().size();
   Eigen::MatrixXd motions(q, 0), forces(q - 1, 0);
@@ -80,7 +55,6 @@ bool RedundantLaws::AmongThese(const std::vector<Holding>& laws, const States& s
   for (const Holding& holding : laws) {
     const StateRule& state = laws_[holding.law].In(states[holding.law]);
     if (state.idle) continue;
-    if (motions.cols() == q) return true;  // one more is one too many
     for (std::size_t p = 0; p < holding.gradients.size(); ++p) {
       if (!state.ports[p].Holds()) continue;
       LawVector force = holding.gradients[p];

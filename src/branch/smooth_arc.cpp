@@ -53,7 +53,6 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   }
   const double norm = point->first.head(n).norm();
   if (!std::isfinite(norm) || norm == 0.0) return false;
-  if (!(point->first.head(n).dot(towards) > tolerances::kUnitComponent * norm)) return false;
   point->first /= norm;
   point->second = solver_.Solve(-equations_.SecondDerivative(x, point->first), 0.0);
   if (held_.value_or(false)) point->second -= factors_.free * (factors_.free.transpose() * point->second);
@@ -95,7 +94,6 @@ void SmoothArc::ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& t
   Eigen::VectorXd free = forces.norm() * plane.col(1);
   free -= forces.dot(others) / forces.norm() * plane.col(0);
   free.normalize();
-  if (!(free.tail(plane.rows() - dofs).norm() <= rounding)) return;
   *first -= free.dot(*first) * free;
 }
 
@@ -106,7 +104,6 @@ void SmoothArc::HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change
   const Eigen::VectorXd psi = solver_.LeftNullSpace().col(0).head(equations_.NumEquations()).normalized();
   const SecondForm form(&equations_, x);
   const double bend = psi.dot(form(null_vector));
-  if (std::abs(bend) < tolerances::kNoForm) return;
   *change -= size * psi.dot(form(null_vector, unit)) / bend * null_vector;
 }
 
@@ -211,7 +208,6 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
   ++factorisations_;
   at_hand_ = false;
   of_.resize(0);
-  if (rests_) return solver_.Factorize(transposed, row, equations_.InFrame(), tolerances::kRootOfRounding);
   // Along an arc the same motions stay free as a rule.
   const Factorised::Kind kind =
       factors_.Make(&equations_, x, transposed, row, tolerances::kSingularPivot, held_.value_or(true));

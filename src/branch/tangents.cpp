@@ -15,8 +15,6 @@
 namespace contact_path {
 namespace {
 
-constexpr Eigen::Index kMostModes = 20;  // of more, their share is not looked for
-
 // Columns of `basis` without what lies in the span of the rows' null space: splits a null space by what moves.
 // Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
 Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::Index count, bool still) {
@@ -83,12 +81,11 @@ void AddTangent(const NullSpaceParts& parts, const Eigen::VectorXd& arrival, Tan
 // z is the tangent with a share of each rigid mode. The tangent stays as it is where these equations do not tell.
 void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& left,
                      ArcEquations* equations, Eigen::VectorXd* tangent) {
-  if (modes.cols() == 0 || modes.cols() > kMostModes || left.cols() != modes.cols()) return;
+  if (modes.cols() == 0 || left.cols() != modes.cols()) return;
   const Eigen::MatrixXd psi = left.topRows(equations->NumEquations()).colwise().normalized();
   const SecondForm second(equations, x);
   const auto form = [&](const Eigen::VectorXd& z) { return Eigen::VectorXd(psi.transpose() * second(z)); };
   Eigen::VectorXd z = *tangent, value = form(z);
-  if (value.norm() <= tolerances::kNoForm) return;
   for (int i = 0; i < kMostIterations; ++i) {
     Eigen::MatrixXd slope(modes.cols(), modes.cols());
     for (Eigen::Index k = 0; k < modes.cols(); ++k) slope.col(k) = 2.0 * psi.transpose() * second(z, modes.col(k));

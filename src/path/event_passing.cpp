@@ -113,7 +113,7 @@ std::optional<End> EventPassing::PassChoice(const ArcStep& at, AcceptedPoint* in
 std::optional<End> EventPassing::LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment) {
   Arrival arrival;
   arrival.direction = at.step.end.first.head(arc_->NumMotion());
-  arrival.singular = at.event.crossing.has_value() || at.event.singular;
+  arrival.singular = at.event.crossing.has_value();
   if (before_.at_start) arrival = departure_->StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.fails;
   return departure_->Leave(increment->point, arrival, choice, arc_, current_, &increment->event);

@@ -152,10 +152,9 @@ class Jumper {
     Course course{start_, Work(laws_), std::nullopt};
     Stability at = StabilityOf(start_);
     std::vector<Eigen::VectorXd> directions = {push};
-    if (at.verdict != Verdict::kStable)
-      directions.push_back(at.direction.size() > 0 ? at.direction : GenericVector(moved_.size()));
+    if (at.verdict != Verdict::kStable) directions.push_back(at.direction);
     for (;;) {
-      Course next = Leave(resistance, course, directions, at.verdict == Verdict::kUnstable, stride);
+      Course next = Leave(resistance, course, directions, stride);
       if (next.came_back) {
         // It is held here. Where that is known to be wrong, it has not landed.
         course.came_back = course.steps == 0;
@@ -167,16 +166,13 @@ class Jumper {
       at = StabilityOf(course.now);
       if (course.landing && at.verdict == Verdict::kStable) return course;
       directions = {at.direction, GenericVector(moved_.size())};
-      for (Eigen::VectorXd& direction : directions)
-        if (direction.size() > 0 && direction.dot(course.now.u - start_.u) < 0.0) direction = -direction;
     }
   }
 
   // By the first disturbance from which the structure does not come back. A limit point is left with the square of the
-  // distance from it, a bifurcation with the third power. unstable: what it left is; then it may come to rest nearby.
+  // distance from it, a bifurcation with the third power.
   Course Leave(const Resistance& resistance, const Course& from, const std::vector<Eigen::VectorXd>& directions,
-               bool unstable, double stride) {
-    std::optional<Course> nearby;
+               double stride) {
     for (const double share : {tolerances::kShort, tolerances::kNextToStart}) {
       for (const Eigen::VectorXd& direction : directions) {
         if (direction.size() == 0 || direction.cwiseProduct(moved_).isZero(0.0)) continue;
@@ -185,13 +181,7 @@ class Jumper {
         for (const double sense : {1.0, -1.0}) {
           Course course = Move(resistance, from, sense * disturbance, stride);
           if (!course.came_back) return course;
-          if (!nearby || (course.landing && !nearby->landing)) nearby = std::move(course);
         }
-      }
-      if (unstable && nearby && nearby->landing &&
-          Largest(nearby->now.u - from.now.u) > tolerances::kSameTangent * extent_) {
-        nearby->came_back = false;
-        return *nearby;
       }
     }
     Course back = from;
@@ -246,13 +236,11 @@ class Jumper {
     double pushed = 0.0;     // how far; 0: not yet
     bool shortened = false;  // the next step was
     // Of the last step, and the largest so far. A push moves the structure from rest to rest.
-    double speed = 0.0, most_kinetic = 0.0, fastest = 0.0;
+    double speed = 0.0, most_kinetic = 0.0;
     double growth = 0.0;  // of the speed, from the step before
 
     bool Swings() const { return resistance.HasMass(); }
     double Distance() const { return Largest(course.now.u - from.u); }
-    // Swings slow down and speed up; only on its way from the start does a motion that is too long a step look so.
-    bool IsEarly() const { return !Swings() || Distance() < stride; }
   };
 
   Course Move(const Resistance& resistance, const Course& from, const Eigen::VectorXd& disturbance, double stride) {
@@ -271,7 +259,6 @@ class Jumper {
       // Where the equations become singular, no step is found that is not rounding.
       course.rests = !step && motion.time > tolerances::kSmallShare * late &&
                      motion.speed * motion.time <= tolerances::kNextToStart * motion.pushed;
-      course.came_back = course.rests && motion.Distance() <= motion.pushed;
       if (course.rests) break;
       if (!step || IsTooLong(motion, *step)) {
         motion.time *= step ? 0.5 : 0.25;
@@ -279,15 +266,15 @@ class Jumper {
         continue;
       }
       const double length = Largest(step->point.u - course.now.u);
-      const bool settles = Accept(*step, &motion) && length <= Admitted(motion);
+      const bool settles = Accept(*step, &motion);
       // A step by which more than half of what is left decays has more behind it than before it.
-      if (settles) Land(motion.Swings() ? stride : length, &course);
+      if (settles) Land(length, &course);
       course.rests =
           course.landing || (settles && motion.time > late && length <= tolerances::kNextToStart * motion.pushed);
-      course.came_back = course.rests && motion.Distance() <= motion.pushed;
       if (course.rests) break;
       ChooseTime(*step, length, &motion);
     }
+    course.came_back = course.rests && motion.Distance() <= motion.pushed;
     return course;
   }
 
@@ -304,17 +291,16 @@ class Jumper {
   }
 
   bool IsTooLong(const Motion& motion, const MotionStep& step) {
-    if (step.determinant_sign * SignOfDrag(step.point) < 0) return true;
     const Eigen::VectorXd du = step.point.u - motion.course.now.u;
     if (motion.pushed == 0.0) return false;
     if (Largest(du) > kMostGrowth * Admitted(motion)) return true;
     // Within so short a step nothing grows: the motion has a kink.
     if (Largest(du) <= tolerances::kNextToStart * motion.Distance()) return false;
-    return motion.IsEarly() && motion.speed > 0.0 && !step.changed &&
+    return motion.speed > 0.0 &&
            du.norm() > kMostGrowth * motion.speed * motion.time + tolerances::kRootOfRounding * extent_;
   }
 
-  // Goes to the end of the step. Whether the motion comes to rest, in states that stay.
+  // Goes to the end of the step. Whether the motion comes to rest.
   bool Accept(const MotionStep& step, Motion* motion) {
     Course& course = motion->course;
     const Eigen::VectorXd du = step.point.u - course.now.u;
@@ -332,7 +318,6 @@ class Jumper {
     bool settles = kMostGrowth * speed <= motion->speed;
     if (motion->Swings()) {
       motion->velocity = du / motion->time;
-      motion->fastest = std::max(motion->fastest, Largest(motion->velocity));
       const double kinetic = 0.5 * speed * speed;
       motion->most_kinetic = std::max(motion->most_kinetic, kinetic);
       // What is left does not lift the structure out of a valley any more.
@@ -340,16 +325,15 @@ class Jumper {
     }
     motion->growth = motion->speed > 0.0 ? speed / motion->speed : 0.0;
     motion->speed = speed;
-    return settles && !step.changed;
+    return settles;
   }
 
   // The time of the step after this one of the given length.
   void ChooseTime(const MotionStep& step, double length, Motion* motion) const {
     const bool easy = !motion->shortened && 2 * step.iterations <= kMostCorrections;
     // A step of twice the length has at most kMostGrowth.
-    const bool slow = !motion->IsEarly() || motion->growth * (kMostGrowth + 1.0) <= 2.0 * kMostGrowth;
-    motion->time *= std::min(easy && slow ? 2.0 : 1.0, length > 0.0 ? Admitted(*motion) / length : 2.0);
-    if (motion->fastest > 0.0) motion->time = std::min(motion->time, motion->stride / motion->fastest);
+    const bool slow = motion->growth * (kMostGrowth + 1.0) <= 2.0 * kMostGrowth;
+    motion->time *= std::min(easy && slow ? 2.0 : 1.0, Admitted(*motion) / length);
     motion->shortened = false;
   }
 
@@ -386,22 +370,10 @@ class Jumper {
 
   double Energy(const PathPoint& point) const { return structure_.Energy(point.u) + laws_.Energy(point); }
 
-  // Sign of the determinant with so much drag that nothing drives away from the point. A step by implicit Euler from
-  // which the same drag drives the structure has the same sign; where it has the other one it is so long that growth is
-  // taken for decay.
-  int SignOfDrag(const PathPoint& point) {
-    if (!SameStates(point.modes, modes_of_sign_)) {
-      const double largest = std::max(1.0, DiagonalStiffness(structure_, laws_, point).maxCoeff());
-      sign_ = solver_.DeterminantSign(point, largest / tolerances::kSmallShare * moved_);
-      modes_of_sign_ = point.modes;
-    }
-    return sign_;
-  }
-
   bool InequalitiesHold(const Eigen::VectorXd& x) const {
     const std::vector<Limit> inequalities = arc_.system().Limits();
     return std::all_of(inequalities.begin(), inequalities.end(), [&](const Limit& constraint) {
-      return arc_.system().Value(constraint, x) >= -std::max(arc_.RoundingOf(constraint), tolerances::kActive);
+      return arc_.system().Value(constraint, x) >= -arc_.RoundingOf(constraint);
     });
   }
 
@@ -419,8 +391,6 @@ class Jumper {
   Eigen::VectorXd moved_;           // 1, and 0 for components of supports
   const std::function<bool()>& cancelled_;
   double stride_ = 0.0;
-  Modes modes_of_sign_;  // for the states of which sign_ is known
-  int sign_ = 0;
 };
 
 }  // namespace

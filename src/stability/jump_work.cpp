@@ -61,12 +61,12 @@ double WorkOfMotion::OfPort(std::size_t i, std::size_t p, const PathPoint& from,
       return after * (length + owed);
     }
     const double slope = length > 0.0 ? (before - after) / length : 0.0;
-    double work_done = 0.5 * (before + after) * length + std::max(0.5 * slope * owed, -before) * owed;
+    double work_done = 0.5 * (before + after) * length + 0.5 * slope * owed * owed;
     if (length_before > 0.0) {
       // The force is before - slope x + bend x (length - x), and the mean of that stays between those at the ends.
       const double bend = (slope - slide.slope) / (length + length_before), most = 3.0 * std::abs(slope);
       work_done += std::clamp(bend * length, -most, most) * length * length / 6.0;
-      if (behind && std::abs(bend) * std::max(*behind, length_before / 3.0) <= std::abs(slide.slope))
+      if (behind)
         work_done +=
             bend * (std::pow(length_before, 3) / 6.0 - *behind * *behind * (0.5 * length_before + *behind / 3.0));
     } else {

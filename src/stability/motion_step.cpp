@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "contact_path/equations/newton_loop.h"
@@ -12,8 +11,7 @@
 namespace contact_path {
 namespace {
 
-constexpr int kMostRounds = 40;     // of the active set: what takes more is done by shorter steps
-constexpr int kRoundsTogether = 6;  // laws change their states together, from then on one by one
+constexpr int kMostRounds = 40;  // of the active set: what takes more is done by shorter steps
 
 }  // namespace
 
@@ -42,17 +40,13 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
   step.acts_after.assign(laws_.size(), 0.0);
   Eigen::VectorXd references = laws_.ReferencesAt(from);
   PathPoint trial = from;
-  for (std::size_t i = 0; i < laws_.size(); ++i)
-    if (!laws_[i].In(from.modes[i]).idle) trial.modes[i] = laws_[i].AtStart(from.u, from.s, from.modes[i]);
-  std::set<Modes> tried;
   for (; step.rounds < kMostRounds; ++step.rounds) {
     system_.SetModes(trial.modes, references);
     Eigen::VectorXd x = system_.Pack(trial);
     if (!Newton(drag, anchor, &x, &step.iterations)) return std::nullopt;
-    std::vector<Change> changes = Changes(x);
+    const std::vector<Change> changes = Changes(x);
     if (changes.empty()) {
       step.point = system_.Unpack(x);
-      step.determinant_sign = solver_.DeterminantSign();
       step.changed = !SameStates(step.point.modes, from.modes);
       for (std::size_t i = 0; i < laws_.size(); ++i) {
         if (step.acts_after[i] == 0.0 || laws_[i].Holonomic() || laws_[i].NumPorts() < 2) continue;
@@ -62,13 +56,6 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
         if (way != 0.0) step.acts_after[i] = (references[laws_.FirstPort(i) + 1] - start) / way;
       }
       return step;
-    }
-    const bool again = !tried.emplace(trial.modes).second;
-    if (again || step.rounds >= kRoundsTogether) {
-      std::iter_swap(changes.begin(),
-                     std::max_element(changes.begin(), changes.end(),
-                                      [](const Change& a, const Change& b) { return a.excess < b.excess; }));
-      changes.resize(1);
     }
     for (const Change& change : changes) {
       NoteActing(from, change, x, &references, &step);
@@ -146,13 +133,6 @@ bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd
       limits, true, next, [this](const Eigen::VectorXd& step) { return system_.Norm(step); }, x, &newton_step_);
   *iterations = course.iterations;
   return course.at_rounding;
-}
-
-int MotionStepSolver::DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag) {
-  system_.SetModes(point.modes, laws_.ReferencesAt(point));
-  const Eigen::VectorXd x = system_.Pack(point);
-  strains_from_ = strains_to_ = x.head(system_.NumDofs() + 1);
-  return Factorize(x, drag, machine_.Row(system_.NumUnknowns())) ? solver_.DeterminantSign() : 0;
 }
 
 }  // namespace contact_path

@@ -27,11 +27,10 @@ struct MachineEquation {
 };
 
 struct MotionStep {
-  PathPoint point;           // the end
-  int iterations = 0;        // of Newton's method, with the last states
-  int rounds = 0;            // of the active set
-  bool changed = false;      // other states than at the start
-  int determinant_sign = 0;  // of the equations of the step; 0 where they are singular
+  PathPoint point;       // the end
+  int iterations = 0;    // of Newton's method, with the last states
+  int rounds = 0;        // of the active set
+  bool changed = false;  // other states than at the start
   // By law: the share of the motion of its other ports after which it acts, where it was idle; else 0.
   std::vector<double> acts_after;
 };
@@ -46,8 +45,6 @@ class MotionStepSolver {
 
   // Nothing: Newton's method fails, or no states were found. `from` has known pieces where laws act.
   std::optional<MotionStep> Solve(const PathPoint& from, const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor);
-  // Sign of the determinant of these equations with the states of the point: 0 where they are singular.
-  int DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag);
   // The point as an arc through it has it.
   PathPoint AsOfArc(const PathPoint& point);
 

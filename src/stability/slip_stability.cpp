@@ -64,7 +64,6 @@ bool IsStrictlyCopositive(const Eigen::MatrixXd& F) {
 }
 
 std::optional<int> ComplementarityDegree(const Eigen::MatrixXd& H) {
-  if (H.rows() == 0) return 1;
   if (H.rows() > kMostSlips) return std::nullopt;
   const double size = H.cwiseAbs().maxCoeff();
   // Roots have no simple ratios, as numbers that a person writes have.

@@ -444,15 +444,5 @@ TEST(BranchMethod, NoFriction) {
   EXPECT_EQ(none.increments.size(), 1U);
 }
 
-// The increment before lands within 1e-6 of a singular point of the arch, where second derivatives are rounding.
-TEST(BranchMethod, GoesOnFromNextToASingularPoint) {
-  TraceRequest request = ReadExample("arch19");
-  request.options.accuracy = Accuracy::kAccurate;
-  request.options.step = 2e-4;
-  request.options.max_increments = 19400;
-  const TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
-}
-
 }  // namespace
 }  // namespace contact_path::branch_method_test

@@ -5,11 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "contact_path/branch/event_functions.h"
 #include "contact_path/path/model.h"
 #include "support/contact_points.h"
 #include "support/dense.h"
@@ -25,7 +23,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr ContactState kOpen = ContactState::kOpen, kStick = ContactState::kStick, kClosed = ContactState::kClosed;
+constexpr ContactState kOpen = ContactState::kOpen, kStick = ContactState::kStick;
 constexpr ContactState kSlipPlus = ContactState::kSlipPlus, kSlipMinus = ContactState::kSlipMinus;
 
 using ContactStates = std::vector<ContactState>;
@@ -50,83 +48,6 @@ struct Rest {
   Model model;
   PathPoint point;
 };
-
-// One node on the floor: K, loads s (fx, fy) + (rt, -rn): at s = 0 it rests with the reactions rn and rt.
-Scene OneNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double friction, double rn, double rt) {
-  Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
-  scene.superelements = {{{"p"}, {stiffness(0, 0), stiffness(0, 1), stiffness(1, 0), stiffness(1, 1)}}};
-  scene.loads = {{"p", load.x(), load.y(), false}, {"p", -rt, -rn, true}};
-  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
-  scene.contacts = {{"p", "floor"}};
-  return scene;
-}
-
-std::unique_ptr<Rest> RestingNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double friction, double rn,
-                                  double rt, ContactState state) {
-  auto rest = std::make_unique<Rest>(OneNode(stiffness, load, friction, rn, rt));
-  SetReaction(0, rn, rt, &rest->point);
-  rest->point.modes[0].state = NumberOf(state);
-  return rest;
-}
-
-Eigen::Matrix2d Diagonal(double x, double y) { return Vector2d(x, y).asDiagonal(); }
-
-// ----- by hand -----
-
-// At the edge of the cone, rt = -mu rn: slip towards +x with k du = ds, or stick and unload.
-TEST(FindBranches, EdgeOfTheCone) {
-  const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, -0.5, kStick);
-  Arrival arrival;
-  arrival.direction = Eigen::Vector3d(0.0, 0.0, 1.0);
-  const BranchSet on = rest->Branches(arrival);
-  ASSERT_EQ(on.branches.size(), 1U);  // sticking back is the branch of arrival
-  EXPECT_EQ(on.weakly_active, 1);
-  EXPECT_EQ(StatesIn(on.branches[0]), ContactStates{kSlipPlus});
-  const double norm = std::sqrt(5.0);
-  EXPECT_NEAR(on.branches[0].load_rate, 2.0 / norm, 1e-15);
-  EXPECT_NEAR(on.branches[0].direction[0], 1.0 / norm, 1e-15);
-  EXPECT_NEAR(on.branches[0].dissipation_rate, 0.5 / norm, 1e-15);
-  EXPECT_NEAR(on.branches[0].turn, std::atan(0.5), 1e-14);
-}
-
-TEST(FindBranches, SlippingItMaySlipOnOrStick) {
-  const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, -0.5, kSlipPlus);
-  Arrival arrival;
-  arrival.direction = Eigen::Vector3d(1.0, 0.0, 2.0).normalized();
-  const BranchSet on = rest->Branches(arrival);
-  ASSERT_EQ(on.branches.size(), 2U);
-  EXPECT_EQ(StatesIn(on.branches[0]), ContactStates{kSlipPlus});
-  EXPECT_NEAR(on.branches[0].turn, 0.0, 1e-7);
-  EXPECT_NEAR(on.branches[0].dissipation_rate, 0.5 / std::sqrt(5.0), 1e-15);
-  EXPECT_EQ(StatesIn(on.branches[1]), ContactStates{kStick});
-  EXPECT_EQ(on.branches[1].dissipation_rate, 0.0);
-  EXPECT_NEAR(on.branches[1].load_rate, -1.0, 1e-15);
-}
-
-// Klarbring's example: mu = 2 > K_tt / |K_nt|. With the reaction gone, load as on the way up, stick, slip and open are
-// all possible.
-TEST(FindBranches, SeveralBranchesAtOnce) {
-  Eigen::Matrix2d stiffness;
-  stiffness << 1.0, -1.5, -1.5, 4.0;
-  const double mu = 1.0;
-  // At the edge of the cone: (K_tt + mu K_nt) du = ds: negative, so slip towards +x goes with the load falling.
-  const auto rest = RestingNode(stiffness, Vector2d(1.0, 0.0), mu, 1.0, -1.0, kStick);
-  Arrival arrival;
-  arrival.direction = Eigen::Vector3d(0.0, 0.0, 1.0);
-  const BranchSet on = rest->Branches(arrival);
-  ASSERT_EQ(on.branches.size(), 1U);
-  EXPECT_EQ(StatesIn(on.branches[0]), ContactStates{kSlipPlus});
-  EXPECT_NEAR(on.branches[0].load_rate / on.branches[0].direction[0], -0.5, 1e-15);
-  EXPECT_NEAR(on.branches[0].dissipation_rate, on.branches[0].direction[0], 1e-15);
-  // Where it lifts off: slip no further; open with ds/du = 1.75 / 4.
-  const auto lifting = RestingNode(stiffness, Vector2d(1.0, 0.0), mu, 0.0, 0.0, kSlipPlus);
-  arrival.direction = Eigen::Vector3d(1.0, 0.0, -0.5).normalized();
-  const BranchSet open = lifting->Branches(arrival);
-  ASSERT_FALSE(open.branches.empty());
-  EXPECT_EQ(StatesIn(open.branches[0]), ContactStates{kOpen});
-  EXPECT_NEAR(open.branches[0].load_rate / open.branches[0].direction[0], 0.4375, 1e-15);
-}
 
 // ----- against an enumeration of its own -----
 
@@ -434,35 +355,41 @@ std::vector<VectorXd> BranchesWithRisingLoad(const LinearProblem& problem) {
   return branches;
 }
 
-// More contacts than are enumerated: what is found is admissible, and something is found where there is a branch.
+// More contacts than are enumerated at once: what is found is admissible, and something is found where there is a
+// branch. Where pivoting finds none, as among very rough contacts, all combinations are tried before the path is said
+// to end.
 TEST(FindBranches, ManyCoupledContacts) {
   Random random(3);
-  int found = 0, missed = 0;
-  for (int i = 0; i < 36; ++i) {
+  int found = 0, missed = 0, enumerated = 0;
+  for (int i = 0; i < 72; ++i) {
     const Index n = 7;  // each takes a quarter of a second
+    const bool rough = i >= 36;
+    if (i == 36) random = Random(3);
     LinearProblem problem = RandomProblem(&random, n);
     problem.stiffness = problem.stiffness * problem.stiffness + 0.5 * MatrixXd::Identity(2 * n, 2 * n);
     for (std::size_t k = 0; k < 7; ++k) {
-      problem.friction[k] = 0.3;
+      problem.friction[k] = rough ? 1.0 : 0.3;
       problem.rn[k] = problem.rt[k] = 0.0;
     }
-    if (i % 31 > 4) continue;
+    if (i % 36 % 31 > 4 || (rough && i % 2 == 0)) continue;
     const std::vector<VectorXd> all = BranchesWithRisingLoad(problem);
     Rest rest(problem.ToScene());
     const BranchSet on = rest.FromStart(1.0);
     EXPECT_EQ(on.complete_by == Completeness::kAllCombinations, on.combinations >= 1 << 14);
+    if (on.complete_by == Completeness::kAllCombinations) ++enumerated;
     for (const Branch& branch : on.branches) {
       double distance = 1.0;
       for (const VectorXd& other : all) distance = std::min(distance, (other - branch.direction).norm());
       EXPECT_LE(distance, 1e-9) << "problem " << i;
     }
-    if (!on.branches.empty()) ++found;
+    if (!on.branches.empty() && !rough) ++found;
     if (on.branches.empty() && !all.empty()) {
       ++missed;
       ADD_FAILURE() << "problem " << i << ": none of " << all.size() << " branches was found";
     }
   }
   EXPECT_GE(found, 8);
+  EXPECT_GE(enumerated, 1);
   EXPECT_EQ(missed, 0);
 }
 

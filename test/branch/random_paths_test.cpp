@@ -10,11 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/branch/mode_arc.h"
-#include "contact_path/path/model.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scaling.h"
-#include "support/dense.h"
 #include "support/random_scene.h"
 #include "support/seeds.h"
 #include "support/traced_path.h"
@@ -382,139 +379,6 @@ TEST(RandomPaths, EndForAReason) {
   }
   for (const auto& [seed, cause] : ListedFailures())
     EXPECT_EQ(failures.count(seed), 1U) << seed << " " << ToString(cause);
-}
-
-// ----- path ends -----
-
-// Looks for equilibria next to the end of a path, along every combination of states, by solving for them: no rates are
-// used.
-class Neighbourhood {
- public:
-  Neighbourhood(const TracedPath& path)
-      : path_(path),
-        model_(path.request.scene, CharacteristicScales(path.request.scene)),
-        arc_(model_.structure, model_.laws),
-        point_(model_.FromIncrement(path.increments.back())) {
-    if (path.increments.size() > 1) {
-      const PathPoint before = model_.FromIncrement(path.increments[path.increments.size() - 2]);
-      back_.resize(point_.u.size() + 1);
-      back_ << before.u - point_.u, before.s - point_.s;
-      back_.normalize();
-    }
-  }
-
-  // Number of admissible equilibria at a small distance that are not on the way back.
-  int Count() {
-    std::vector<ContactState> states;
-    Enumerate(&states);
-    return found_;
-  }
-  int combinations() const { return combinations_; }
-
- private:
-  std::vector<ContactState> Options(std::size_t i) const {
-    const ContactPair& contact = *model_.contacts[i];
-    const double rn = NormalReaction(point_, i), rt = TangentialReaction(point_, i);
-    if (contact.Gap(point_.u, point_.s, 0) > kTouching) return {ContactState::kOpen};
-    std::vector<ContactState> options;
-    if (rn < kTouching) options = {ContactState::kOpen};
-    if (!contact.Frictional()) {
-      options.push_back(ContactState::kClosed);
-      return options;
-    }
-    options.push_back(ContactState::kStick);
-    const double limit = contact.Friction() * rn;
-    if (limit + rt < kTouching) options.push_back(ContactState::kSlipPlus);
-    if (limit - rt < kTouching) options.push_back(ContactState::kSlipMinus);
-    return options;
-  }
-
-  void Enumerate(std::vector<ContactState>* states) {
-    if (states->size() == model_.contacts.size()) {
-      ++combinations_;
-      Try(*states);
-      return;
-    }
-    for (const ContactState state : Options(states->size())) {
-      states->push_back(state);
-      Enumerate(states);
-      states->pop_back();
-    }
-  }
-
-  void Try(const std::vector<ContactState>& states) {
-    PathPoint begin = point_;
-    for (std::size_t i = 0; i < states.size(); ++i) begin.modes[i].state = NumberOf(states[i]);
-    arc_.SetModes(begin);
-    const Eigen::VectorXd x = arc_.system().Pack(point_);
-    FixedModeSystem system = arc_.system();
-    const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system.TransposedJacobian(x)).transpose();
-    const SingularValueDecomposition dense = Decompose(jacobian);
-    const Eigen::Index motion = arc_.NumMotion();
-    for (Eigen::Index column = 0; column < dense.v.cols(); ++column) {
-      const bool null = column >= dense.values.size() || dense.values[column] < 1e-9;
-      if (!null) continue;
-      const Eigen::VectorXd direction = dense.v.col(column);
-      if (direction.head(motion).norm() < 1e-9) continue;
-      for (const double sign : {1.0, -1.0}) {
-        const Eigen::VectorXd unit = sign / direction.head(motion).norm() * direction;
-        if (back_.size() > 0 ? (unit.head(motion) - back_).norm() < 1e-3
-                             : unit[motion - 1] * path_.request.options.Direction() <= 1e-9)
-          continue;
-        if (Admissible(x, unit, 1e-3) && Admissible(x, unit, 1e-4)) ++found_;
-      }
-    }
-  }
-
-  bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& unit, double distance) {
-    const Correction correction = arc_.CorrectOnPlane(x + distance * unit, unit.head(arc_.NumMotion()));
-    if (!correction.converged) return false;
-    for (const Limit& limit : arc_.system().Limits())
-      if (arc_.system().Value(limit, correction.x) < -1e-5 * distance * distance) return false;
-    return true;
-  }
-
-  const TracedPath& path_;
-  Model model_;
-  ModeArc arc_;
-  PathPoint point_;
-  Eigen::VectorXd back_;
-  int found_ = 0;
-  int combinations_ = 0;
-};
-
-// Where a path is said to end, there is no equilibrium near but those it came from.
-TEST(RandomPaths, EndWhereNoEquilibriumIsNear) {
-  int ends = 0;
-  for (const auto& [seed, end] : TheStudy().ends) {
-    const TracedPath& path = TheStudy().balanced[seed];
-    if (end.first != EndReason::kPathEnd || BecameAMechanism(path) || InPreload(path)) continue;
-    Neighbourhood neighbourhood(path);
-    EXPECT_EQ(neighbourhood.Count(), 0) << "seed " << seed << ", " << path.increments.size() << " increments";
-    EXPECT_GE(neighbourhood.combinations(), 1);
-    ++ends;
-  }
-  EXPECT_GE(ends, AtLeast(3));
-}
-
-// And on the way there is one, or this would be no proof.
-TEST(RandomPaths, EquilibriaAreNearElsewhere) {
-  int checked = 0;
-  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-    TracedPath path = TheStudy().balanced[seed];
-    if (path.increments.size() < 20) continue;
-    const std::vector<const Increment*> events = Events(path);
-    if (events.size() < 2) continue;
-    const auto at = static_cast<std::size_t>(events[1]->index);
-    if (events[1]->event.branches.empty() || at + 1 >= path.increments.size()) continue;
-    if (events.size() > 2 && events[2]->arc_length < events[1]->arc_length + 0.01)
-      continue;                                                  // the neighbours are beyond that
-    if (Explain(path, at + 1) != Cause::kUnexplained) continue;  // nothing special up to there
-    path.increments.resize(at + 1);
-    EXPECT_GE(Neighbourhood(path).Count(), 1) << "seed " << seed;
-    ++checked;
-  }
-  EXPECT_GE(checked, AtLeast(50));
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ class ToyEquations : public ArcEquations {
   struct Watched {
     std::function<Along(const Unknowns&)> of;
     bool of_rate = false;
+    bool near = false;  // an increment is wanted at its zero, and nothing fails
   };
 
   ToyEquations(Eigen::Index unknowns, std::function<Unknowns(const Unknowns&)> F, std::vector<Watched> limits = {})
@@ -63,7 +64,8 @@ class ToyEquations : public ArcEquations {
   std::vector<Limit> LimitsInReach(const Eigen::VectorXd& /*x*/, double /*reach*/, std::vector<Limit>* near) override {
     near->clear();
     std::vector<Limit> all;
-    for (std::size_t i = 0; i < limits_.size(); ++i) all.push_back({static_cast<int>(i), 0});
+    for (std::size_t i = 0; i < limits_.size(); ++i)
+      (limits_[i].near ? near : &all)->push_back({static_cast<int>(i), 0});
     return all;
   }
   bool IsOfRate(const Limit& limit) const override { return Of(limit).of_rate; }

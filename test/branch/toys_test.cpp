@@ -203,6 +203,74 @@ TEST(Toys, ALimitThatIsZeroAtTheStart) {
   EXPECT_EQ(step.step.length, 0.0);
 }
 
+// Of the first step, which is from -kHalf to kHalf, the ends do not show a term bump (kHalf^2 - x^2)^3.
+const double kHalf = 0.05 / std::sqrt(2.0);
+ToyEquations::Watched WithBump(double offset, double bump) {
+  return {[=](const Unknowns& x) {
+    const Along inside = kHalf * kHalf - x[0] * x[0];
+    return x[0] * x[0] + offset + bump * (inside * inside * inside);
+  }};
+}
+Walk FirstStepOver(std::vector<ToyEquations::Watched> limits) {
+  return {Line(std::move(limits)), Vector2d(-kHalf, -kHalf), Vector2d(1.0, 1.0)};
+}
+
+TEST(Toys, AZeroThatTheCurveDoesNotHaveIsNoEvent) {
+  Walk walk = FirstStepOver({WithBump(-1e-4, 1e5)});
+  EXPECT_NE(walk.ToEvent(1).event.Kind(), EventKind::kContactEvent);
+}
+
+// The step up to the first limit that is seen shows another one before it.
+TEST(Toys, AnEventBeforeTheOneThatTheStepShows) {
+  Walk walk = FirstStepOver({WithBump(1e-4, -1e5), {[](const Unknowns& x) { return 0.01 - x[0]; }}});
+  const ArcStep step = walk.ToEvent();
+  ASSERT_EQ(step.event.Kind(), EventKind::kContactEvent);
+  EXPECT_EQ(step.event.fails->law, 0);
+  EXPECT_LT(walk.at().x[0], 0.0);
+}
+
+// A step ends a little beyond.
+TEST(Toys, AFunctionAtWhoseZeroAnIncrementIsWanted) {
+  Walk walk(Line({{[](const Unknowns& x) { return 0.02 - x[0]; }, false, true}}), Vector2d(0.0, 0.0),
+            Vector2d(1.0, 1.0));
+  EXPECT_EQ(walk.ToEvent(1).event.Kind(), EventKind::kNearTouch);
+  EXPECT_GT(walk.at().x[0], 0.02);
+  EXPECT_LT(walk.at().x[0], 0.02 + 1e-8);
+}
+
+// A limit that fails next to where the load turns is what to act on.
+TEST(Toys, ALimitNextToAFold) {
+  ToyEquations toy(2, [](const Unknowns& x) { return Unknowns{x[0] * x[0] + x[1]}; },
+                   {{[](const Unknowns& x) { return 1e-13 - x[0]; }}});
+  Walk walk(toy, Vector2d(-1.0, -1.0), Vector2d(1.0, 2.0));
+  EXPECT_EQ(walk.ToEvent().event.Kind(), EventKind::kContactEvent);
+}
+
+// Two straight curves: the one of arrival is the path, whichever it is.
+TEST(Toys, CurvesThatCrossAreNamedByTheArrival) {
+  const auto two = [](const Unknowns& x) { return Unknowns{(x[0] - x[1]) * (x[0] + 0.4 * x[1])}; };
+  for (const double slope : {1.0, -0.4})
+    for (const double sense : {1.0, -1.0}) {
+      const Vector2d along = sense * Vector2d(slope, 1.0).normalized();
+      Walk walk({2, two}, -0.55 * along, along);
+      const ArcStep step = walk.ToEvent();
+      ASSERT_EQ(step.event.Kind(), EventKind::kBifurcation) << slope;
+      EXPECT_NEAR(walk.at().x.norm(), 0.0, 1e-12);
+      EXPECT_NEAR(step.event.crossing->along.first.dot(along), 1.0, 1e-12);
+    }
+}
+
+// x (x^2 - s) = e: the curve bends off, however sharply, and no step goes on straight to the other one.
+TEST(Toys, APitchforkThatAnImperfectionHasBroken) {
+  for (const double e : {1e-2, 1e-6, 1e-9, 1e-11}) {
+    SCOPED_TRACE(e);
+    const auto toy = [=](const Unknowns& x) { return Unknowns{x[0] * (x[0] * x[0] - x[1]) - e}; };
+    Walk walk({2, toy}, Vector2d(e / 0.55, e * e / (0.55 * 0.55) - 0.55), Vector2d(0.0, 1.0));
+    while (walk.at().x[1] < 0.3) ASSERT_EQ(walk.ToEvent(1).event.Kind(), EventKind::kNone);
+    EXPECT_GT(walk.at().x[0], 0.5);
+  }
+}
+
 // y = s - s^3 / 3 has to grow.
 TEST(Toys, ARateThatMayNotTurn) {
   const auto curve = [](const Unknowns& x) { return Unknowns{x[0] - x[1] + x[1] * x[1] * x[1] * (1.0 / 3.0)}; };

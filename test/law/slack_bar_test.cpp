@@ -201,9 +201,9 @@ TEST_F(NodeOnTwoStrings, RatesAreOneComplementarityProblem) {
   const RateComplementarity problem(laws_, rates, options, weakly_active);
   EXPECT_TRUE(problem.exists() && problem.unique());
   for (const double sense : {1.0, -1.0}) {
-    const std::vector<RateSolution> solutions = problem.Solve(sense);
+    const std::vector<States> solutions = problem.Solve(sense);
     ASSERT_EQ(solutions.size(), 1U);
-    EXPECT_EQ(solutions[0].states, (States{kTaut.state, (sense > 0.0 ? kSlack : kTaut).state}));
+    EXPECT_EQ(solutions[0], (States{kTaut.state, (sense > 0.0 ? kSlack : kTaut).state}));
   }
 }
 

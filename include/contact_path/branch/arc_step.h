@@ -32,8 +32,7 @@ struct ArcStep {
 // Where no step meets the limits, the predictor may be further off: at a point where another path crosses, or nearly,
 // rounding of the forces across both paths hides how good it is. How far rounding moves points there is seen by the
 // last step of Newton's method; an error of the predictor of ten times its length asks for no shorter step.
-// A step may be longer than wanted, up to the largest: where it would end at a point that is singular to rounding, and
-// events on it are not found for that. Nothing: no step is accepted, however short.
+// Nothing: no step is accepted, however short.
 std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
                                 const StepEnds& ends);
 

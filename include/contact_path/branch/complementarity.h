@@ -7,10 +7,8 @@
 
 namespace contact_path {
 
-struct ComplementaritySolution {
-  std::vector<bool> second;              // whether z is what may differ from zero, by pair; otherwise w is
-  std::vector<Eigen::Index> degenerate;  // pairs of which this is zero, too, to its error: either may be the one
-};
+// Whether z is what may differ from zero, by pair; otherwise w is.
+using ComplementaritySolution = std::vector<bool>;
 
 // w = M z + q, 0 <= w, 0 <= z, w . z = 0. M: n x n, scaled to a diagonal of the order of 1; q: n, known to
 // tolerances::kRate of the largest variable. Solutions are found by Lemke's method (Cottle, Pang & Stone, The Linear

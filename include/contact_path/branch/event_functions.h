@@ -33,10 +33,9 @@ struct StepEvent {
   std::optional<Limit> fails = {};        // the limit that reaches zero and would be broken
   bool turns = false;                     // ds = 0
   std::optional<Crossing> crossing = {};  // other curves cross
-  bool singular = false;  // more than one other curve crosses where the load turns, as at two dead centres at once
-  std::optional<Sample> sample = {};  // a function comes to one of its values
-  bool target = false;                // the load factor comes to where the path is to end
-  bool near = false;                  // an increment is wanted, and nothing fails
+  std::optional<Sample> sample = {};      // a function comes to one of its values
+  bool target = false;                    // the load factor comes to where the path is to end
+  bool near = false;                      // an increment is wanted, and nothing fails
   bool too_long = false;
 
   // The fact to act on.

@@ -11,11 +11,6 @@
 
 namespace contact_path {
 
-struct RateSolution {
-  States states;            // by law; of those that are not weakly active, the first option
-  bool degenerate = false;  // rates that are zero hide some of the states: others have the same rates
-};
-
 // For a rate s' = +-1 of the load, rates by the load and not by arc length. Each weakly active law has a base state, in
 // which most of its ports are held, and limits of forces in it that are at zero. Each of these is the first of a pair,
 // whose second is the motion of the state beyond:
@@ -38,8 +33,9 @@ class RateComplementarity {
   // positive definite. No motion without load exists then.
   bool unique() const { return unique_; }
 
-  // For s' = load_sense. Where the solution is not unique, those that were found; there may be more.
-  std::vector<RateSolution> Solve(double load_sense) const;
+  // For s' = load_sense: states by law, of those that are not weakly active the first option. Where the solution is not
+  // unique, those that were found; there may be more.
+  std::vector<States> Solve(double load_sense) const;
 
  private:
   // One of the pairs: the first variable as a function of all second ones. Directions are ports of the rate problem.

@@ -64,11 +64,10 @@ class RateProblem {
   std::vector<Eigen::Index> first_port_;
   Eigen::Index num_ports_ = 0;
   bool regular_ = false;
-  Eigen::MatrixXd motion_;     // MotionRates()
-  Eigen::MatrixXd free_;       // the same by rigid motions of parts that nothing holds but these laws: columns
-  Eigen::VectorXd travelled_;  // motions from their references
-  Eigen::MatrixXd gram_;       // z . gram z = |(du, ds)|^2
-  Eigen::VectorXd along_;      // along_ . z = (du, ds) . arrival
+  Eigen::MatrixXd motion_;  // MotionRates()
+  Eigen::MatrixXd free_;    // the same by rigid motions of parts that nothing holds but these laws: columns
+  Eigen::MatrixXd gram_;    // z . gram z = |(du, ds)|^2
+  Eigen::VectorXd along_;   // along_ . z = (du, ds) . arrival
 };
 
 }  // namespace contact_path

@@ -24,10 +24,6 @@ class RedundantLaws {
   // Whether, with these states, the motions that are held of the same dofs, or the forces on them, depend on each
   // other. Also true for one law that holds more than it has dofs.
   bool Among(const States& states) const;
-  // The laws that are not away from their limits, at the same dofs where several are.
-  std::vector<std::vector<std::size_t>> OfTheSameDofs() const;
-  // Whether they are among every combination of these options, by law, at some dofs.
-  bool AmongAll(const std::vector<Modes>& options) const;
 
  private:
   struct Holding {

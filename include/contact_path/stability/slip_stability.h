@@ -19,7 +19,7 @@ bool IsStrictlyCopositive(const Eigen::MatrixXd& F);
 
 // The degree of the problem (Cottle, Pang & Stone 2009, section 6.1): for a generic q > 0 the sum of the signs of
 // det H_II over the sets I of contacts that slip in the solutions of w = H z + q, 0 <= z, w, z . w = 0. Nothing where a
-// sign is lost in rounding, or H is too large. H of no contact: 1.
+// sign is lost in rounding, or H is too large.
 std::optional<int> ComplementarityDegree(const Eigen::MatrixXd& H);
 
 // A motion z of unit norm with w = -rate z where z > 0, w >= 0 elsewhere.
