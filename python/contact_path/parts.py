@@ -26,6 +26,8 @@ Function = TypeVar('Function', bound=Callable[..., Any])
 #: Lists of parts of a scene, in the order of scene files. A method of Parts or Loading for each, named by its singular.
 LISTS = ('nodes', 'bars', 'superelements', 'beams', 'materials', 'solids', 'groups', 'surfaces', 'loads', 'obstacles', 'contacts',
          'supports', 'support_motions', 'obstacle_motions', 'bodies')
+#: Where it is not the list without its last letter.
+SINGULARS = {'bodies': 'body'}
 
 
 def named(function: Function) -> Function:
@@ -234,7 +236,7 @@ def fields_of(method: Any) -> Dict[str, str]:
 
 
 #: List of a scene -> field -> type.
-PARTS: Dict[str, Dict[str, str]] = {part: fields_of(getattr(Parts, part[:-1])) for part in LISTS}
+PARTS: Dict[str, Dict[str, str]] = {part: fields_of(getattr(Parts, SINGULARS.get(part, part[:-1]))) for part in LISTS}
 OPTIONS: Dict[str, str] = fields_of(Parts.options)
 #: Of a stage, besides its lists.
 STAGE: Dict[str, str] = fields_of(Parts.stage)

@@ -27,7 +27,7 @@ SlackBar::SlackBar(MovingPlace span, double EA, double rest_length, StrainMeasur
       strain_(strain) {
   Traits traits;
   traits.dofs = span_.Dofs();
-  for (std::size_t k = 0; k < traits.dofs.size(); ++k) traits.moves[0][k] = span_.Moves(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k <= traits.dofs.size(); ++k) traits.moves[0][k] = span_.Moves(static_cast<Eigen::Index>(k));
   traits.couples = traits.compliant = traits.elastic = traits.curved = true;
   traits.force_unit = ForceUnitAbove(EA);
   // While the bar is slack: l0 de/dl is l / l0, 1 or l0 / l, and both ends move.

@@ -91,7 +91,7 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
       given += stage_.check.Give(i) * std::pow(increment.contacts[i].rt, 2) / stage_.Energy();
   open_ += given;
   findings_.Bound("energies of the increment are out of balance, over F L", imbalance,
-                  kEnergy * exchanged +
+                  kEnergy * exchanged + given +
                       recorded.rounding * (1.0 + std::abs(increment.strain_energy) / stage_.Energy()) +
                       kRoundingOfParts * std::abs(increment.external_work) / stage_.Energy());
 }

@@ -68,6 +68,7 @@ TEST_F(Pairs, SlipReferencesAreThoseOfAllCandidates) {
   point.s = 0.2;
   point.modes.resize(contacts_.size());
   const Laws laws = LawsOf(contacts_);
+  point.forces = Eigen::VectorXd::Zero(laws.NumPorts());
   const Eigen::VectorXd references = laws.ReferencesAt(point);
   ASSERT_EQ(references.size(), 10);
   for (std::size_t i = 0; i < contacts_.size(); ++i)

@@ -23,7 +23,8 @@ from contact_path.structure import expanded  # noqa: E402
 
 MESSAGES = {'nodes': 'Node', 'bars': 'Bar', 'superelements': 'Superelement', 'beams': 'Beam', 'materials': 'Material',
             'solids': 'Solid', 'groups': 'Group', 'surfaces': 'BoundarySurface', 'loads': 'Load', 'obstacles': 'Obstacle',
-            'contacts': 'Contact', 'supports': 'Support', 'support_motions': 'SupportMotion', 'obstacle_motions': 'ObstacleMotion'}
+            'contacts': 'Contact', 'supports': 'Support', 'support_motions': 'SupportMotion', 'obstacle_motions': 'ObstacleMotion',
+            'bodies': 'RigidBody'}
 TYPES = {'string': 'str', 'float64': 'float', 'int32': 'int', 'bool': 'bool'}
 LISTS = {'string': 'Texts', 'float64': 'Numbers', 'int32': 'Integers', 'bool': 'Truths'}
 
@@ -43,7 +44,7 @@ class Fields(unittest.TestCase):
         self.assertEqual({part: message for message, part in lists}, MESSAGES)
         self.assertEqual(parts.PARTS.keys(), MESSAGES.keys())
         for part, message in MESSAGES.items():
-            self.assertTrue(callable(getattr(Scene, part[:-1])), part)
+            self.assertTrue(callable(getattr(Scene, parts.SINGULARS.get(part, part[:-1]))), part)
             self.assertEqual(parts.PARTS[part], fields_of_message(message), part)
 
     def test_options_and_stages(self):
@@ -63,7 +64,7 @@ class Fields(unittest.TestCase):
     def test_which_keyword_may_be_meant(self):
         made = Scene()
         for call, told in ((lambda: made.node('a', fixedx=True), r'^node: unknown key fixedx \(did you mean fixed_x\?\), must be one of: '
-                            'name, x, y, fixed_x, fixed_y, fixed_rotation$'),
+                            'name, x, y, fixed_x, fixed_y, fixed_rotation, body$'),
                            (lambda: made.bar(['a', 'b'], ea=1.0), r'^bar: unknown key ea \(did you mean EA\?\), must be one of: nodes, EA, '),
                            (lambda: made.stage('push').load(node='a', colour='red'), '^load: unknown key colour, must be one of: node, '),
                            (lambda: cp.trace(made, acuracy='fast'), r'^trace: unknown key acuracy \(did you mean accuracy\?\), '),
