@@ -89,10 +89,11 @@ void AttachedElement::Force(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::R
   force = at.jacobian.transpose() * inner_force;
 }
 
-void AttachedElement::AddBend(const At& at, const Eigen::VectorXd& inner_force,
-                              Eigen::Ref<Eigen::MatrixXd> tangent) const {
+Eigen::MatrixXd AttachedElement::Bend(const At& at, const Eigen::VectorXd& inner_force) const {
+  Eigen::MatrixXd bend = Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols());
   for (std::size_t k = 0; k < attached_.size(); ++k)
-    Scatter(attached_[k].place.Dofs(), at.places[k].Second(inner_force.segment<2>(attached_[k].first_inner)), tangent);
+    Scatter(attached_[k].place.Dofs(), at.places[k].Second(inner_force.segment<2>(attached_[k].first_inner)), bend);
+  return bend;
 }
 
 void AttachedElement::Tangent(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::MatrixXd> tangent) const {
@@ -101,8 +102,7 @@ void AttachedElement::Tangent(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen:
   Eigen::MatrixXd inner(at.inner.size(), at.inner.size());
   inner_->Force(at.inner, inner_force);
   inner_->Tangent(at.inner, inner);
-  tangent = at.jacobian.transpose() * inner * at.jacobian;
-  AddBend(at, inner_force, tangent);
+  tangent = at.jacobian.transpose() * inner * at.jacobian + Bend(at, inner_force);
 }
 
 void AttachedElement::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& z,
@@ -114,8 +114,7 @@ void AttachedElement::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& z,
   Eigen::MatrixXd inner(at.inner.size(), at.inner.size());
   inner_->Force(at.inner, inner_force);
   inner_->MixedTangent(at.inner, Inner(from), Inner(to), inner);
-  tangent = at.jacobian.transpose() * inner * at.jacobian;
-  AddBend(at, inner_force, tangent);
+  tangent = at.jacobian.transpose() * inner * at.jacobian + Bend(at, inner_force);
 }
 
 void AttachedElement::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& z,
@@ -130,8 +129,7 @@ void AttachedElement::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>&
   inner_->Tangent(at.inner, tangent);
   inner_->TangentDerivative(at.inner, along, change);
   const Eigen::VectorXd force_change = tangent * along;
-  derivative = at.jacobian.transpose() * change * at.jacobian;
-  AddBend(at, force_change, derivative);
+  derivative = at.jacobian.transpose() * change * at.jacobian + Bend(at, force_change);
   for (std::size_t k = 0; k < attached_.size(); ++k) {
     const Attached& attached = attached_[k];
     const LawVector direction = LocalOf(attached.place.Dofs(), v, 0.0);

@@ -15,7 +15,7 @@ LawVector LocalOf(const LawDofs& dofs, const Eigen::Ref<const Eigen::VectorXd>& 
   return q;
 }
 
-MovingPlace::MovingPlace(std::initializer_list<const MovingFrame*> frames) {
+MovingPlace::MovingPlace(const std::vector<const MovingFrame*>& frames) {
   std::vector<int> dofs;
   for (const MovingFrame* const frame : frames)
     for (const Coordinate& of : {frame->origin[0], frame->origin[1], frame->angle})
@@ -25,7 +25,7 @@ MovingPlace::MovingPlace(std::initializer_list<const MovingFrame*> frames) {
   for (const int dof : dofs) dofs_.push_back(dof);
 }
 
-MovingPlace::MovingPlace(const FixedPoint& point) : MovingPlace({&point.frame}) {
+MovingPlace::MovingPlace(const FixedPoint& point) : MovingPlace(std::vector<const MovingFrame*>{&point.frame}) {
   Term origin = NewTerm();
   AddOrigin(point.frame, 1.0, &origin);
   Add(std::move(origin));
@@ -33,7 +33,7 @@ MovingPlace::MovingPlace(const FixedPoint& point) : MovingPlace({&point.frame}) 
 }
 
 MovingPlace MovingPlace::Between(const FixedPoint& from, const FixedPoint& to) {
-  MovingPlace place({&from.frame, &to.frame});
+  MovingPlace place(std::vector<const MovingFrame*>{&from.frame, &to.frame});
   Term origins = place.NewTerm();
   place.AddOrigin(from.frame, -1.0, &origins);
   place.AddOrigin(to.frame, 1.0, &origins);
@@ -44,7 +44,7 @@ MovingPlace MovingPlace::Between(const FixedPoint& from, const FixedPoint& to) {
 }
 
 MovingPlace MovingPlace::SeenFrom(const MovingFrame& frame, const FixedPoint& point) {
-  MovingPlace place({&frame, &point.frame});
+  MovingPlace place(std::vector<const MovingFrame*>{&frame, &point.frame});
   place.constant_ = frame.start;
   Term origins = place.NewTerm();
   place.AddOrigin(point.frame, 1.0, &origins);

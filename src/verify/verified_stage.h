@@ -12,8 +12,8 @@
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/increment.h"
-#include "contact_path/scene/expand.h"
 #include "contact_path/scene/configuration.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"

@@ -85,8 +85,9 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
     if (last.positions.empty()) return {};
     const auto stage = static_cast<std::size_t>(std::max(last.stage, 1) - 1);
     const Scaling scaling = StageScales(request, stage);
-    const bool met = std::any_of(increments.begin(), increments.end() - 1,
-                                 [&](const Increment& other) { return SameState(other, last, request.scene, scaling); });
+    const bool met = std::any_of(increments.begin(), increments.end() - 1, [&](const Increment& other) {
+      return SameState(other, last, request.scene, scaling);
+    });
     return met ? "" : says + "no earlier increment has the state of the last one";
   }
   return {};

@@ -51,8 +51,8 @@ class AttachedElement : public Element {
 
   AttachedElement() = default;
   Eigen::VectorXd Inner(const Eigen::VectorXd& z) const;
-  // Adds what the change of the places' gradients does to the tangent.
-  void AddBend(const At& at, const Eigen::VectorXd& inner_force, Eigen::Ref<Eigen::MatrixXd> tangent) const;
+  // What the change of the places' gradients adds to the tangent.
+  Eigen::MatrixXd Bend(const At& at, const Eigen::VectorXd& inner_force) const;
 
   std::unique_ptr<const Element> inner_;
   std::vector<LocalDof> dofs_;

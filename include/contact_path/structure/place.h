@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <initializer_list>
 #include <vector>
 
 #include "contact_path/structure/local_vector.h"
@@ -72,7 +71,7 @@ class MovingPlace {
     Eigen::Matrix2d Rotation(const LawVector& q) const;
   };
 
-  explicit MovingPlace(std::initializer_list<const MovingFrame*> frames);
+  explicit MovingPlace(const std::vector<const MovingFrame*>& frames);
   Term NewTerm() const;
   // sign times the origin of the frame, or times its angle.
   void AddOrigin(const MovingFrame& frame, double sign, Term* term) const;
