@@ -267,6 +267,49 @@ TEST(SlackBars, ASlackStringMayHaveNoLength) {
   }
 }
 
+// A node that is pushed down between two strings, which become taut together at y = -0.2, and that tends to go aside
+// with the stiffness -1.5; a taut string adds EA / l0^3 = 1 against it. So with both it stays, and with one of them
+// alone it goes aside, where the other one is slack.
+TEST(SlackBars, TellBranchesApart) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "aside";
+  scene.nodes = {{"left", -1.0, 1.0, true, true}, {"right", 1.0, 1.0, true, true}, {"p", 0.0, 0.0, false, false}};
+  const double l0 = std::hypot(1.0, 1.2), EA = l0 * l0 * l0;
+  scene.bars = {{{"left", "p"}, EA, l0, StrainMeasure::kBiot, BarSense::kTension, ""},
+                {{"p", "right"}, EA, l0, StrainMeasure::kBiot, BarSense::kTension, ""}};
+  scene.superelements = {{{"p"}, {-1.5, 0.0, 0.0, 1.0}}};
+  scene.loads = {{"p", 0.0, -1.0, false}};
+  request.options.stop = {{"p.y", "<", -0.22}};
+  request.options.stability = DefaultTrue::kFalse;
+  std::vector<std::vector<BarState>> found;
+  for (int branch = 1; branch <= 3; ++branch) {
+    SCOPED_TRACE(branch);
+    request.options.branch_choices = {{1, 0, branch}};
+    TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const auto event = std::find_if(path.increments.begin(), path.increments.end(),
+                                    [](const Increment& increment) { return increment.event.number == 1; });
+    ASSERT_NE(event, path.increments.end());
+    EXPECT_NEAR(event->positions[5], -0.2, kExact);
+    ASSERT_EQ(event->event.branches.size(), 3U);
+    BranchRecord& taken = event->event.branches[static_cast<std::size_t>(branch) - 1];
+    found.push_back(taken.bars);
+    EXPECT_EQ((event + 1)->bars, taken.bars);
+    const double aside = (event + 1)->positions[4];
+    EXPECT_EQ(taken.bars, (std::vector<BarState>{aside > -kExact ? BarState::kTaut : BarState::kSlack,
+                                                 aside < kExact ? BarState::kTaut : BarState::kSlack}));
+    ExpectProved(path);
+    std::reverse(taken.bars.begin(), taken.bars.end());
+    taken.bars[0] = taken.bars[0] == taken.bars[1] ? BarState::kSlack : taken.bars[0];
+    EXPECT_FALSE(VerifyPath(path.request, path.increments).findings.empty());
+    taken.bars.clear();
+    EXPECT_FALSE(VerifyPath(path.request, path.increments).findings.empty());
+  }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(std::unique(found.begin(), found.end()), found.end());
+}
+
 TEST(SlackBars, AreRefusedByNameWhereTheyCannotBe) {
   TraceRequest request = TwoStrings(2.0, 1.0);
   request.options.method = Method::kMpec;
