@@ -51,8 +51,6 @@ void CheckOptions(Checker* checker) {
     checker->Add(path.Key("at"), "", "must be empty with method mpec, which does not locate values");
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)
     checker->Add(path.Key("friction_law"), "total", "must be incremental with method mpec");
-  if (!options.LocatesEvents() && !OneSidedBars(checker->GetScene()).empty())
-    checker->Add(path.Key("method"), "mpec", "must be branch in a scene with bars that bear in one sense alone");
   const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
   if (options.friction_law == FrictionLaw::kTotal &&
       std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))
