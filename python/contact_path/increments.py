@@ -91,12 +91,12 @@ class Increments:
 
     @property
     def events(self) -> List[Dict[str, Any]]:
-        """Where contacts change their states, paths cross, stability is lost, or a jump lands: `index`, `kind`, `load_factor`, `stage`
+        """Where contacts or bars change their states, paths cross, stability is lost, or a jump lands: `index`, `kind`, `load_factor`, `stage`
         with a load program.
 
         Of the method `branch`, except where the path was read from a CSV file, also: `number`, as branch_choices count; `taken`, the
         number of the branch that was taken, from 1, 0: none; `complete`, whether there are no more branches, and `complete_by`, for which reason; `branches`,
-        best first, with `states` (contact -> state), `load_rate`, `parameter_rate`, `dissipation_rate` [-] and `turn` [rad].
+        best first, with `states` (contact or bar -> state), `load_rate`, `parameter_rate`, `dissipation_rate` [-] and `turn` [rad].
         """
         wanted = np.isin(self['kind'], EVENTS)
         rows = {int(self['index'][number]): int(number) for number in np.flatnonzero(wanted)}

@@ -100,6 +100,7 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
        << (increment.event.complete ? "" : "; not all combinations of states were tried") << '\n'
        << std::setprecision(4);
   if (increment.event.branches.empty()) text << "  no branch was found\n";
+  const std::vector<std::size_t> bars = OneSidedBars(request.scene);
   for (std::size_t i = 0; i < increment.event.branches.size(); ++i) {
     const BranchRecord& branch = increment.event.branches[i];
     const bool taken = static_cast<int>(i) + 1 == increment.event.taken;
@@ -107,14 +108,16 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
          << Shown(branch.dissipation_rate, tolerances::kRate) << ", load rate "
          << Shown(branch.load_rate, tolerances::kRate) << ", turn " << Shown(branch.turn, tolerances::kSameDirection);
     std::size_t changes = 0;
-    for (std::size_t k = 0; k < branch.states.size(); ++k) {
-      const ContactState before = increment.contacts[k].state;
-      if (branch.states[k] == before) continue;
-      text << (changes++ == 0 ? "; " : ", ") << request.scene.contacts[k].Name() << ' ' << ToString(before) << " -> "
-           << ToString(branch.states[k]);
-    }
-    if (const std::size_t same = branch.states.size() - changes; same > 0) text << "; " << same << " unchanged";
-    if (!increment.bars.empty()) text << "; states of bars are not listed";
+    const auto list = [&](const std::string& name, auto before, auto state) {
+      if (state != before)
+        text << (changes++ == 0 ? "; " : ", ") << name << ' ' << ToString(before) << " -> " << ToString(state);
+    };
+    for (std::size_t k = 0; k < branch.states.size(); ++k)
+      list(request.scene.contacts[k].Name(), increment.contacts[k].state, branch.states[k]);
+    for (std::size_t k = 0; k < branch.bars.size(); ++k)
+      list(BarName(request.scene.bars[bars[k]], bars[k]), increment.bars[k], branch.bars[k]);
+    if (const std::size_t same = branch.states.size() + branch.bars.size() - changes; same > 0)
+      text << "; " << same << " unchanged";
     text << '\n';
   }
   out << text.str();

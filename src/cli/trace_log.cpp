@@ -6,6 +6,7 @@
 
 #include "cli/json_fields.h"
 #include "contact_path/path/end.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/text.h"
@@ -33,11 +34,13 @@ TraceLog::TraceLog(const TraceRequest& request, std::ostream* out)
   header["accuracy"] = JsonOf(request.options.accuracy);
   header["friction_law"] = JsonOf(request.options.friction_law);
   header["scaling"] = {{"length", scaling.length}, {"force", scaling.force}, {"load_factor", scaling.load_factor}};
-  Json nodes = Json::array(), contacts = Json::array();
+  Json nodes = Json::array(), contacts = Json::array(), bars = Json::array();
   for (const Node& node : request.scene.nodes) nodes.push_back(node.name);
   for (const ContactCandidate& contact : request.scene.contacts) contacts.push_back(contact.Name());
+  for (const std::size_t i : OneSidedBars(request.scene)) bars.push_back(BarName(request.scene.bars[i], i));
   header["nodes"] = std::move(nodes);
   header["contacts"] = std::move(contacts);
+  header["bars"] = std::move(bars);
   WriteLine(header, &out_);
 }
 

@@ -47,12 +47,12 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
   }
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
   // Past the end of its surface a node would meet the prolongation of the last patch.
-  included.erase(
-      std::remove_if(included.begin(), included.end(),
-                     [&](std::size_t i) {
-                       return !contacts_[i]->HasPatch(contacts_[i]->KnownPatch(from.u, from.s, from.modes[i].piece));
-                     }),
-      included.end());
+  included.erase(std::remove_if(included.begin(), included.end(),
+                                [&](std::size_t i) {
+                                  return i < contacts_.size() && !contacts_[i]->HasPatch(contacts_[i]->KnownPatch(
+                                                                     from.u, from.s, from.modes[i].piece));
+                                }),
+                 included.end());
   for (;;) {
     const std::vector<int> working_set(included.begin(), included.end());
     IncrementTrial trial = SolveWith(from, working_set, goal, schedule, nullptr);
@@ -61,9 +61,10 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
     const std::size_t before = included.size();
     for (const std::size_t i : tracker_.InReach(trial.point.u, trial.point.s, 0.0)) {
       const auto place = std::lower_bound(included.begin(), included.end(), i);
-      const int patch = contacts_[i]->PatchAt(trial.point.u, trial.point.s);
-      if ((place == included.end() || *place != i) && contacts_[i]->Gap(trial.point.u, trial.point.s, patch) < 0.0)
-        included.insert(place, i);
+      const double gap = i < contacts_.size() ? contacts_[i]->Gap(trial.point.u, trial.point.s,
+                                                                  contacts_[i]->PatchAt(trial.point.u, trial.point.s))
+                                              : laws_[i].Reach(trial.point.u, trial.point.s);
+      if ((place == included.end() || *place != i) && gap < 0.0) included.insert(place, i);
     }
     if (included.size() == before) return trial;
     iterations = trial.iterations;
@@ -73,7 +74,7 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
 IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vector<int>& working_set,
                                           const IncrementGoal& goal, RegularisationSchedule schedule,
                                           const PathPoint* predicted) {
-  IncrementProblem problem(structure_, contacts_, from, working_set, goal);
+  IncrementProblem problem(structure_, contacts_, laws_, from, working_set, goal);
   IncrementTrial trial;
   trial.variables = static_cast<int>(problem.NumVariables());
   trial.constraints = static_cast<int>(problem.NumConstraints());
@@ -94,15 +95,15 @@ IncrementTrial IncrementSolver::SolvePredicted(const PathPoint& from, const Incr
                                                const RegularisationSchedule& schedule) {
   IncrementTrial trial;
   std::vector<int> working_set;
-  const auto touches = [](const PathPoint& point, std::size_t i) { return StateOf(point, i) != ContactState::kOpen; };
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
+  const auto touches = [this](const PathPoint& point, std::size_t i) { return !laws_[i].In(point.modes[i]).idle; };
+  for (std::size_t i = 0; i < laws_.size(); ++i)
     if (touches(from, i)) working_set.push_back(static_cast<int>(i));
   const Eigen::VectorXd wanted =
-      IncrementProblem(structure_, contacts_, from, working_set, goal).UnconstrainedMinimiser();
+      IncrementProblem(structure_, contacts_, laws_, from, working_set, goal).UnconstrainedMinimiser();
   const std::optional<PathPoint> predicted = Exact(from, wanted, from, kLongestIncrement * goal.length, false);
   if (!predicted) return trial;
   working_set.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
+  for (std::size_t i = 0; i < laws_.size(); ++i)
     if (touches(from, i) || touches(*predicted, i)) working_set.push_back(static_cast<int>(i));
   trial = SolveWith(from, working_set, goal, schedule, &*predicted);
   if (trial.status == SolveStatus::kSolved && !trial.exact) trial.status = SolveStatus::kFailed;

@@ -40,7 +40,8 @@ Cause NoBranch(const BranchSet& on) {
 void RecordBranches(const Model& model, const std::vector<Branch>& branches, EventRecord* record) {
   for (const Branch& branch : branches)
     record->branches.push_back({ContactStatesOf(branch.modes, model.contacts.size()), branch.load_rate,
-                                branch.parameter_rate, branch.dissipation_rate, branch.turn});
+                                branch.parameter_rate, branch.dissipation_rate, branch.turn,
+                                model.BarStatesIn(branch.modes)});
 }
 
 std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,

@@ -172,6 +172,12 @@ Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {
   return check.Check(InSceneUnits(before), InSceneUnits(now));
 }
 
+std::vector<BarState> Model::BarStatesIn(const Modes& modes) const {
+  std::vector<BarState> states;
+  for (std::size_t i = contacts.size(); i < modes.size(); ++i) states.push_back(static_cast<BarState>(modes[i].state));
+  return states;
+}
+
 double AutomaticStepGrowth(const Model& model) {
   // Prescribed components do not count: how many there are depends on the axes.
   const double all =

@@ -35,52 +35,56 @@ constexpr double kShortPath = 20.0;          // of the corner tolerance
 constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
-// Whether this contact is about to change its state, so that the path may bend here by any angle.
-bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
-  const bool open = StateOf(point, i) == ContactState::kOpen;
-  const double unit = contact.ForceUnit();
-  if ((open ? contact.Gap(point.u, point.s, point.modes[i].piece) : NormalReaction(point, i) / unit) <=
-      tolerances::kTouching)
+// Whether this law is about to change its state, so that the path may bend here by any angle.
+bool IsNearlyActive(const Laws& laws, const PathPoint& point, std::size_t i) {
+  const Law& law = laws[i];
+  const PortReals forces = laws.Of(point.forces, i);
+  const double unit = law.ForceUnit();
+  if ((law.In(point.modes[i]).idle ? law.Motion(kNormal, point.u, point.s, point.modes[i].piece, {})
+                                   : forces[kNormal] / unit) <= tolerances::kTouching)
     return true;
-  return StateOf(point, i) == ContactState::kStick &&
-         contact.Friction() * NormalReaction(point, i) - std::abs(TangentialReaction(point, i)) <=
-             tolerances::kTouching * unit;
+  return law.LargestRatio() > 0.0 && StateOf(point, i) == ContactState::kStick &&
+         law.LargestRatio() * forces[kNormal] - std::abs(forces[kTangent]) <= tolerances::kTouching * unit;
 }
 
-bool SomeNearlyActive(const ContactPairs& contacts, const PathPoint& point) {
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (IsNearlyActive(*contacts[i], point, i)) return true;
+bool SomeNearlyActive(const Laws& laws, const PathPoint& point) {
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if (IsNearlyActive(laws, point, i)) return true;
   return false;
 }
 
-// Whether a contact has another state than before, or has come to where it may change: the increment may have cut a
+// Whether a law has another state than before, or has come to where it may change: the increment may have cut a
 // corner. A contact that slides on without a reaction, say, has lost it somewhere on the way.
-bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
+bool MayHaveCutCorner(const Laws& laws, const PathPoint& from, const PathPoint& to) {
   if (!SameStates(to.modes, from.modes)) return true;
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (IsNearlyActive(*contacts[i], to, i) && !IsNearlyActive(*contacts[i], from, i)) return true;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if (IsNearlyActive(laws, to, i) && !IsNearlyActive(laws, from, i)) return true;
   return false;
 }
 
-// Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
+// Whether what a regularised point says of each law is what its numbers say. They may all be small against the
 // characteristic force, and then small residuals prove nothing.
 bool StatesAgree(const ContactPairs& contacts, const Laws& laws, const PathPoint& from, const PathPoint& to) {
   const double largest = std::max(std::abs(to.s), laws.LargestForce(to));
   const double length = kRegularisedState * Distance(from, to);
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const double force = kRegularisedState * largest * contacts[i]->ForceUnit();
-    const double slip = contacts[i]->Travel(kTangent, from.u, from.s, from.modes[i].piece, to.u - from.u, to.s - from.s,
-                                            to.modes[i].piece);
-    const double margin = contacts[i]->Friction() * NormalReaction(to, i) - std::abs(TangentialReaction(to, i));
-    const ContactState state = StateOf(to, i);
-    if (state == ContactState::kOpen) {
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const double force = kRegularisedState * largest * laws[i].ForceUnit();
+    const PortReals forces = laws.Of(to.forces, i);
+    const StateRule& rule = laws[i].In(to.modes[i]);
+    if (rule.idle) {
       // Friction above 1 makes a force of a normal reaction that is none.
-      if (std::max(NormalReaction(to, i), std::abs(TangentialReaction(to, i))) >
-          std::min(force, tolerances::kAcceptedRegularised))
+      if (std::max(forces[kNormal], std::abs(forces[kTangent])) > std::min(force, tolerances::kAcceptedRegularised))
         return false;
       continue;
     }
-    if (contacts[i]->Gap(to.u, to.s, to.modes[i].piece) > length) return false;
+    if (laws[i].Motion(kNormal, to.u, to.s, to.modes[i].piece, {}) + rule.ports[kNormal].compliance * forces[kNormal] >
+        length)
+      return false;
+    if (i >= contacts.size()) continue;
+    const double slip = contacts[i]->Travel(kTangent, from.u, from.s, from.modes[i].piece, to.u - from.u, to.s - from.s,
+                                            to.modes[i].piece);
+    const double margin = contacts[i]->Friction() * forces[kNormal] - std::abs(forces[kTangent]);
+    const ContactState state = StateOf(to, i);
     if (state == ContactState::kStick && std::abs(slip) > length) return false;
     if (Slips(state) && margin > force) return false;
   }
@@ -142,14 +146,16 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
 
 bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
   return started_ && !bent_ && SameStates(to.modes, from.modes) &&
-         Direction(from, to).dot(direction) < kSmallestCosine && !SomeNearlyActive(model_.contacts, from);
+         Direction(from, to).dot(direction) < kSmallestCosine && !SomeNearlyActive(model_.laws, from);
 }
 
 // A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
 // and the solver may find either. The second one dissipates nothing.
 bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
-  const auto slides = [](const PathPoint& point) {
-    return std::any_of(point.modes.begin(), point.modes.end(), [](const Mode& mode) { return Slips(StateOf(mode)); });
+  const auto slides = [this](const PathPoint& point) {
+    for (std::size_t i = 0; i < point.modes.size(); ++i)
+      if (model_.laws[i].In(point.modes[i]).slides) return true;
+    return false;
   };
   return started_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 && slides(from) && !slides(to);
 }
@@ -290,7 +296,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
-    if (trial.verdict == sentences::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
+    if (trial.verdict == sentences::kAccepted && MayHaveCutCorner(model_.laws, from, to) &&
         !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
       trial.verdict = sentences::kNotConfirmed;
     if (trial.verdict == sentences::kAccepted && options_.target &&

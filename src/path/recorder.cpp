@@ -50,9 +50,7 @@ void FillState(const Model& model, const PathPoint& point, Increment* increment)
   increment->contacts = ContactsAt(model, point, state);
   increment->positions = std::move(state.positions);
   increment->rotations = std::move(state.rotations);
-  increment->bars.clear();
-  for (std::size_t k = 0; k < model.bars.size(); ++k)
-    increment->bars.push_back(static_cast<BarState>(point.modes[model.contacts.size() + k].state));
+  increment->bars = model.BarStatesIn(point.modes);
   Reactions reactions = model.ReactionsAt(point);
   increment->supports = std::move(reactions.supports);
   increment->boundaries = std::move(reactions.boundaries);

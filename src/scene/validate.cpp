@@ -51,8 +51,6 @@ void CheckOptions(Checker* checker) {
     checker->Add(path.Key("at"), "", "must be empty with method mpec, which does not locate values");
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)
     checker->Add(path.Key("friction_law"), "total", "must be incremental with method mpec");
-  if (!options.LocatesEvents() && !OneSidedBars(checker->GetScene()).empty())
-    checker->Add(path.Key("method"), "mpec", "must be branch in a scene with bars that bear in one sense alone");
   if (const std::vector<Node>& nodes = checker->GetScene().nodes;
       !options.LocatesEvents() && std::any_of(nodes.begin(), nodes.end(), IsBody))
     checker->Add(path.Key("method"), "mpec", "must be branch in a scene with rigid bodies");

@@ -138,6 +138,7 @@ class EventVerifier {
         wrong("the rate of the path parameter is not that of the load");
       if (SetsOut(now) && !(std::abs(std::cos(branch.turn) - direction_ * branch.load_rate) <= kRate))
         wrong("the angle to the load is not the one of its rate");
+      if (branch.bars.size() != now.bars.size()) wrong("the number of states is not that of the bars");
       if (now.contacts.empty()) continue;
       if (branch.states.size() != now.contacts.size()) {
         wrong("the number of states is not that of the contacts");

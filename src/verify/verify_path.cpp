@@ -246,8 +246,10 @@ class StageVerifier {
       findings_.Report("states change without an event");
     const EventRecord& event = before.event;
     if (event.taken < 1 || event.taken > static_cast<int>(event.branches.size()) || !next) return;
-    const std::vector<ContactState>& states = event.branches[static_cast<std::size_t>(event.taken) - 1].states;
-    if (!std::equal(states.begin(), states.end(), increment.contacts.begin(), increment.contacts.end(),
+    const BranchRecord& taken = event.branches[static_cast<std::size_t>(event.taken) - 1];
+    if (taken.bars != increment.bars)
+      findings_.Report("states of bars are not those of the branch taken from the increment before");
+    if (!std::equal(taken.states.begin(), taken.states.end(), increment.contacts.begin(), increment.contacts.end(),
                     [](ContactState state, const ContactRecord& contact) { return state == contact.state; }))
       findings_.Report("contact states are not those of the branch taken from the increment before");
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact_path/contact/scene_contacts.h"
+#include "contact_path/law/slack_bar.h"
 #include "support/contact_points.h"
 #include "support/curved_contacts.h"
 #include "support/deformable_scene.h"
@@ -83,7 +84,7 @@ class MixedProblem : public testing::TestWithParam<WorkingSet> {
     goal_.dissipation = 0.3;
     goal_.gamma2_factor = 1.7;
   }
-  IncrementProblem Problem() const { return IncrementProblem(structure_, contacts_, from_, GetParam(), goal_); }
+  IncrementProblem Problem() const { return IncrementProblem(structure_, contacts_, laws_, from_, GetParam(), goal_); }
   Eigen::VectorXd RandomVariables(const IncrementProblem& problem) {
     return random_.Vector(problem.NumVariables(), 0.1, 1.0);
   }
@@ -91,6 +92,7 @@ class MixedProblem : public testing::TestWithParam<WorkingSet> {
   const Scene scene_ = MixedScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = BuildContacts(scene_, structure_);
+  const Laws laws_ = LawsOf(contacts_);
   Random random_{6};
   PathPoint from_;
   IncrementGoal goal_;
@@ -162,6 +164,7 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   const Scene scene = MovingScene();
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
+  const Laws laws = LawsOf(contacts);
   ASSERT_EQ(structure.PrescribedDofs().size(), 2u);
   Random random(8);
   PathPoint from;
@@ -170,7 +173,7 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   const Eigen::VectorXd rn = random.Vector(6, 0.1, 1.0);
   from.forces = ByPort(rn, random.Vector(6, -1.0, 1.0));
   from.modes.resize(6);
-  const IncrementProblem problem(structure, contacts, from, {0, 1, 2, 3, 4, 5},
+  const IncrementProblem problem(structure, contacts, laws, from, {0, 1, 2, 3, 4, 5},
                                  {0.2, random.Vector(9, -1.0, 1.0).normalized(), 0.3, 1.7});
   EXPECT_EQ(problem.NumVariables(), 9 + 6 + 2 * 4 + 2);
   EXPECT_EQ(problem.NumConstraints(), 8 + 2 * 6 + 5 * 4 + 2);
@@ -188,7 +191,7 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   PathPoint still = from;
   for (const PrescribedDof& prescribed : structure.PrescribedDofs())
     still.u[prescribed.dof] = prescribed.start + prescribed.rate * still.s;
-  const IncrementProblem rest(structure, contacts, still, {}, {0.2, Eigen::VectorXd::Unit(9, 8), 0.0, 1.0});
+  const IncrementProblem rest(structure, contacts, laws, still, {}, {0.2, Eigen::VectorXd::Unit(9, 8), 0.0, 1.0});
   const Eigen::VectorXd values = ConstraintsOf(rest, rest.StartingPoint(Eigen::VectorXd::Zero(9)));
   for (const PrescribedDof& prescribed : structure.PrescribedDofs())
     EXPECT_NEAR(values[prescribed.dof], 0.0, kRounding);
@@ -201,6 +204,7 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
   const Scene scene = MovingScene();
   const Structure structure(scene);
   const ContactPairs contacts = CurvedContacts(structure);
+  const Laws laws = LawsOf(contacts);
   Random random(8);
   PathPoint from;
   from.u = structure.Start() + random.Vector(8, -0.02, 0.02);
@@ -208,7 +212,7 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
   const Eigen::VectorXd rn = random.Vector(5, 0.1, 1.0);
   from.forces = ByPort(rn, random.Vector(5, -1.0, 1.0));
   from.modes.resize(5);
-  const IncrementProblem problem(structure, contacts, from, {0, 1, 2, 3, 4},
+  const IncrementProblem problem(structure, contacts, laws, from, {0, 1, 2, 3, 4},
                                  {0.05, random.Vector(9, -1.0, 1.0).normalized(), 0.3, 1.7});
   for (int i = 0; i < 3; ++i) {
     const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
@@ -232,6 +236,7 @@ TEST(DeformableProblem, DerivativesMeetDifferences) {
   const Scene scene = DeformableScene();
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
+  const Laws laws = LawsOf(contacts);
   Random random(12);
   PathPoint from;
   from.u = structure.Start() + random.Vector(9, -0.02, 0.02);
@@ -241,7 +246,7 @@ TEST(DeformableProblem, DerivativesMeetDifferences) {
                        {contacts[0]->PatchAt(from.u, from.s), contacts[1]->PatchAt(from.u, from.s)});
   std::set<int> patches;
   for (int i = 0; i < 12; ++i) {
-    const IncrementProblem problem(structure, contacts, from, {0, 1},
+    const IncrementProblem problem(structure, contacts, laws, from, {0, 1},
                                    {0.3, random.Vector(10, -1.0, 1.0).normalized(), 0.3, 1.7});
     Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
     x.head(9) = random.Vector(9, -0.7, 0.7);
@@ -255,6 +260,45 @@ TEST(DeformableProblem, DerivativesMeetDifferences) {
     patches.insert(problem.Point(x).modes[0].piece);
   }
   EXPECT_GT(patches.size(), 1u);
+}
+
+// A node on a floor, with a string that is taut at some places and slack at others.
+TEST(CompliantProblem, DerivativesMeetDifferences) {
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0}};
+  scene.superelements = {{{"a"}, {1.0, 0.2, 0.2, 1.0}}};
+  scene.loads = {{"a", 1.0, 0.5}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
+  scene.contacts = {{"a", "floor"}};
+  const Structure structure(scene);
+  const ContactPairs contacts = BuildContacts(scene, structure);
+  const SlackBar bar({SlackBar::End{{-1, -1}, {-1.0, 0.5}}, SlackBar::End{{0, 1}, {}}}, 1.7, 1.1, StrainMeasure::kBiot,
+                     BarSense::kTension);
+  Laws laws = LawsOf(contacts);
+  laws.Add(&bar);
+  Random random(5);
+  PathPoint from;
+  from.u = structure.Start();
+  from.forces = Eigen::Vector3d(1.0, 0.2, 0.3);
+  from.modes = ModesOf({ContactState::kStick});
+  from.modes.push_back({NumberOf(BarState::kTaut), 0});
+  const IncrementProblem problem(structure, contacts, laws, from, {0, 1},
+                                 {0.3, random.Vector(3, -1.0, 1.0).normalized(), 0.3, 1.7});
+  for (int i = 0; i < 4; ++i) {
+    Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
+    x.head(3) = random.Vector(3, -0.7, 0.7);
+    EXPECT_TRUE(
+        IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x, JacobianOf(problem, x)));
+    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
+    const auto gradient = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+    };
+    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers)));
+    // The string is taut where the place says so, whatever its force.
+    const PathPoint point = problem.Point(x);
+    const bool taut = bar.Motion(0, point.u, point.s, 0, {}) <= 0.0;
+    EXPECT_EQ(point.modes[1].state, NumberOf(taut ? BarState::kTaut : BarState::kSlack));
+  }
 }
 
 TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {
@@ -345,11 +389,12 @@ TEST(MovingProblem, DissipationCountsTheMotionOfTheObstacle) {
   scene.obstacle_motions = {{"belt", 2.0, 0.0}};
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
+  const Laws laws = LawsOf(contacts);
   PathPoint from;
   from.u = structure.Start();
   from.forces = Eigen::Vector2d(1.0, 0.3);
   from.modes = ModesOf({ContactState::kSlipMinus});
-  const IncrementProblem problem(structure, contacts, from, {0}, {0.1, Eigen::Vector3d(0.0, 0.0, 1.0), 1.0, 1.0});
+  const IncrementProblem problem(structure, contacts, laws, from, {0}, {0.1, Eigen::Vector3d(0.0, 0.0, 1.0), 1.0, 1.0});
   // xi' = u_x' - 2 s': the dissipation grows most along (-1, 0, 2).
   const Eigen::VectorXd wanted = problem.UnconstrainedMinimiser();
   EXPECT_LE((wanted - 0.1 / std::sqrt(5.0) * Eigen::Vector3d(-1.0, 0.0, 2.0)).norm(), kRounding);
@@ -390,11 +435,12 @@ class SlidingBarProblem : public testing::Test {
     goal_.length = 0.5;
     goal_.direction = Eigen::Vector3d(1.0, 0.0, 0.0);
   }
-  IncrementProblem Problem() const { return IncrementProblem(structure_, contacts_, from_, {0}, goal_); }
+  IncrementProblem Problem() const { return IncrementProblem(structure_, contacts_, laws_, from_, {0}, goal_); }
 
   const Scene scene_ = sliding_bar::MakeScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = BuildContacts(scene_, structure_);
+  const Laws laws_ = LawsOf(contacts_);
   PathPoint from_;
   IncrementGoal goal_;
 };

@@ -106,8 +106,9 @@ Increment FullIncrement() {
   increment.stresses = {{65.0, 66.0, 67.0, 68.0, 69.0, 70.0}};
   increment.pressures = {{71.0, 72.0, 73.0}, {74.0, 75.0, 76.0}};
   increment.widths = {77.0, 78.0};
-  increment.event.branches = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 35.5, 33.0, 34.0},
-                              {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
+  increment.event.branches = {
+      {{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 35.5, 33.0, 34.0, {BarState::kTaut, BarState::kSlack}},
+      {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
   increment.event.number = 41;
   increment.event.taken = 1;
   increment.event.weakly_active = 38;
@@ -176,6 +177,7 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.event.branches[0].parameter_rate, 35.5);
   EXPECT_EQ(message.event.branches[0].dissipation_rate, 33.0);
   EXPECT_EQ(message.event.branches[0].turn, 34.0);
+  EXPECT_EQ(message.event.branches[0].bars, (std::vector<std::uint8_t>{msgs::Increment::TAUT, msgs::Increment::SLACK}));
   EXPECT_EQ(message.event.number, 41U);
   EXPECT_EQ(message.event.taken, 1);
   EXPECT_EQ(message.event.weakly_active, 38U);
@@ -295,6 +297,10 @@ TEST(ConvertTest, RefusesIncrementMessagesThatContradictThemselves) {
 
   message = ToMessage(FullIncrement());
   message.event.branches[1].states[0] = 200;
+  EXPECT_THROW(FromMessage(message), std::invalid_argument);
+
+  message = ToMessage(FullIncrement());
+  message.event.branches[0].bars[1] = 200;
   EXPECT_THROW(FromMessage(message), std::invalid_argument);
 
   message = ToMessage(FullIncrement());

@@ -31,12 +31,14 @@ struct IncrementGoal {
 // terms together ask for more than the wanted length.
 // Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
 // mu r_n -+ r_t >= 0; lambda mu r_n + du_t r_t <= eps; prescribed components where they have to be. Frictionless
-// contacts have neither r_t nor lambda. By the total law of friction, xi - xi_0 at the end of the increment takes the
-// place of du_t in the constraints.
+// contacts have neither r_t nor lambda. A law of one port that gives way where it is held, as a bar that bears one
+// sense alone, is such a contact with the gap g + compliance r_n. By the total law of friction, xi - xi_0 at the end of
+// the increment takes the place of du_t in the constraints.
 class IncrementProblem : public NonlinearProgram {
  public:
-  // working_set: the candidates that take part, ascending. All arguments but the last two must outlive the problem.
-  IncrementProblem(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
+  // working_set: the laws that take part, ascending. laws: the contacts, then laws of one port. All arguments but the
+  // last two must outlive the problem.
+  IncrementProblem(const Structure& structure, const ContactPairs& contacts, const Laws& laws, const PathPoint& from,
                    std::vector<int> working_set, IncrementGoal goal);
 
   void SetRegularisation(double eps) { eps_ = eps; }
@@ -70,9 +72,13 @@ class IncrementProblem : public NonlinearProgram {
                      Eigen::VectorXd* values) const override;
 
  private:
-  // Where a contact of the working set keeps its variables and constraints.
+  // Where a law of the working set keeps its variables and constraints.
   struct Slot {
-    const ContactPair* pair;
+    const Law* law;
+    const ContactPair* pair;      // the same, of a contact; else null
+    Eigen::Index port;            // the first one, among those of all laws
+    int held;                     // state in which the gap is zero and nothing slides
+    double compliance;            // of the gap in that state
     int start_patch;              // where the increment starts
     LawDofs dofs;                 // of the patches that it may end on
     PortsAt at_start;             // of the increment
@@ -95,8 +101,8 @@ class IncrementProblem : public NonlinearProgram {
   };
   using Zeros = std::vector<Zero>;  // of one product
   std::vector<Zeros> ZerosAt(const PathPoint& point, const Eigen::VectorXd& x) const;
-  // By y and the dofs of the slot: gap and slip over S; gradients as they are, Hessians and the gradient of the slip
-  // factor times S.
+  // By y, r_n and the dofs of the slot: gap with what its compliance gives, and slip, over S; gradients as they are,
+  // Hessians and the gradient of the slip factor times S.
   PortsAt ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;
   // Where the node is. The structure of the matrices is fixed: of a deformable surface, the next patches are prolonged.
   int PatchOf(const Slot& slot, const Eigen::VectorXd& u, double s) const;
@@ -107,6 +113,7 @@ class IncrementProblem : public NonlinearProgram {
   void ForEachGapVariable(const Slot& slot, Visit visit) const;
   template <typename Visit>
   void ForEachXiVariable(const Slot& slot, Visit visit) const;
+  void RecordStructures();
   // Calls emit(row, column, value) for each structural entry, in a fixed order.
   template <typename Emit>
   void ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const;
@@ -120,6 +127,7 @@ class IncrementProblem : public NonlinearProgram {
 
   const Structure& structure_;
   const ContactPairs& contacts_;
+  const Laws& laws_;
   const PathPoint& from_;
   std::vector<int> working_set_;
   IncrementGoal goal_;

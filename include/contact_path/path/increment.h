@@ -136,13 +136,14 @@ struct BranchRecord {
   double parameter_rate = 0.0;       // of the path parameter in its wanted sense, over its largest, -1..1
   double dissipation_rate = 0.0;     // scaled, >= 0; by the total law of friction 0
   double turn = 0.0;                 // angle to the direction of arrival [rad]
+  std::vector<BarState> bars;        // of OneSidedBars() of the scene
 };
 
 template <typename P>
 constexpr auto Fields(Of<BranchRecord>) {
   return std::tuple(Member("states", &P::states), Member("load_rate", &P::load_rate),
                     Member("parameter_rate", &P::parameter_rate), Member("dissipation_rate", &P::dissipation_rate),
-                    Member("turn", &P::turn));
+                    Member("turn", &P::turn), Member("bars", &P::bars));
 }
 
 // What was found at an increment where branches part; empty elsewhere.

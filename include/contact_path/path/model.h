@@ -60,6 +60,9 @@ struct Model {
   // x0, y0, x1, ... over the nodes of a motion of the unknowns, NumDofs() or more entries: 0 where nothing is free.
   std::vector<double> ComponentsOf(const Eigen::VectorXd& motion) const;
 
+  // Of the bars among the modes of all laws.
+  std::vector<BarState> BarStatesIn(const Modes& modes) const;
+
   // Puts each law on the piece where it is, in its state.
   void NotePieces(PathPoint* point) const;
 

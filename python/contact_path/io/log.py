@@ -30,11 +30,13 @@ def read_log(file: str) -> Dict[str, List[Dict[str, Any]]]:
     return lines
 
 
-def branches_of(events: Sequence[Mapping[str, Any]], contacts: Sequence[str]) -> Dict[int, Dict[str, Any]]:
-    """Events of the log: index of an increment -> as in Path.events."""
+def branches_of(events: Sequence[Mapping[str, Any]], names: Sequence[str]) -> Dict[int, Dict[str, Any]]:
+    """Events of the log: index of an increment -> as in Path.events. names: of the contacts, then of the bars of its header."""
     return {event['increment']: {
         **{field: event[field] for field in ('number', 'taken', 'complete', 'complete_by')},
-        'branches': [{**branch, 'states': dict(zip(contacts, branch['states']))} for branch in event['branches']]}
+        'branches': [
+            {**{field: value for field, value in branch.items() if field != 'bars'},
+             'states': dict(zip(names, branch['states'] + branch['bars']))} for branch in event['branches']]}
         for event in events}
 
 

@@ -19,11 +19,11 @@ def path_of(request: Any, increments: Sequence[Any], result: Any = None) -> Path
     """The path of messages: TraceRequest, Increment, and TraceResult or None. ValueError: as of expanded()."""
     scene = Scene.from_message(request)
     traced = expanded(scene)
-    contacts = traced['names']['contacts']
+    names = traced['names']
     return Path(columns_of(traced, increments, scene.request.get('options', {})), title=scene.name, scene=scene,
                 end_reason=result.end_reason_name if result is not None else '',
                 message=result.message if result is not None else '', success=result is not None and result.status == OK,
-                branches={message.index: branches_of(contacts, message.event) for message in increments
+                branches={message.index: branches_of(names['contacts'], names.get('bars', ()), message.event) for message in increments
                           if message.event.branches or message.event.number},
                 unstable={message.index: np.reshape(message.unstable_direction, (-1, 2)) for message in increments
                           if getattr(message, 'unstable_direction', ())})
@@ -77,11 +77,12 @@ def columns_of(traced: Mapping[str, Any], increments: Sequence[Any], options: Ma
     return table
 
 
-def branches_of(contacts: Sequence[str], event: Any) -> Dict[str, Any]:
+def branches_of(contacts: Sequence[str], bars: Sequence[str], event: Any) -> Dict[str, Any]:
     """What Path.events tells of an increment beside its kind."""
     return {'number': event.number, 'taken': event.taken, 'complete': event.complete,
             'complete_by': getattr(event, 'complete_by', ''), 'branches': [
-        {'states': {contact: STATES[state] for contact, state in zip(contacts, branch.states)},
+        {'states': {**{contact: STATES[state] for contact, state in zip(contacts, branch.states)},
+                    **{bar: BAR_STATES[state] for bar, state in zip(bars, getattr(branch, 'bars', ()))}},
          'load_rate': branch.load_rate, 'parameter_rate': branch.parameter_rate, 'dissipation_rate': branch.dissipation_rate,
          'turn': branch.turn}
         for branch in event.branches]}

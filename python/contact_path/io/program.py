@@ -112,7 +112,7 @@ def path_of(output: Output, log: Mapping[str, List[Dict[str, Any]]], scene: Call
     if log['end']:
         traced, end = scene(), log['end'][0]
         return Path(table_of(output.table), title=traced.name, scene=traced, end_reason=end['reason'], message=end['summary'], success=end['reached'],
-                    branches=branches_of(log['event'], log['header'][0]['contacts']), unstable=unstable_of(log['increment']))
+                    branches=branches_of(log['event'], log['header'][0]['contacts'] + log['header'][0]['bars']), unstable=unstable_of(log['increment']))
     last = output.said.rstrip('\n').rpartition('\n')[2]
     if output.cancelled and output.status == -signal.SIGINT:  # before it had begun
         return Path(table_of('index,load_factor,arc_length,kind\n'), end_reason='cancelled',

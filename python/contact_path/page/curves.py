@@ -175,7 +175,7 @@ def headings(path: Increments, rows: np.ndarray) -> List[str]:
         if stages:
             text += ', ' + stages[path['stage'][row] - 1]
         if index in events:
-            before = {contact: path['state_' + contact][row] for contact in path.contacts}
+            before = {name: path['state_' + name][row] for name in path.contacts + path.bars}
             text = '<br>'.join([text] + branch_lines(events[index], before))
         found.append(text)
     return found

@@ -1,0 +1,203 @@
+// The constraints of the increment problem, and their derivatives.
+#include "contact_path/mpec/increment_problem.h"
+
+namespace contact_path {
+
+void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  Eigen::VectorXd force(nd);
+  structure_.InternalForce(from_.u + goal_.length * x.head(nd), force);
+  force -= (from_.s + goal_.length * x[nd]) * structure_.ReferenceLoad() + structure_.ConstantLoad();
+  force /= goal_.length;
+  values->resize(num_constraints_);
+  for (const Slot& slot : slots_) {
+    const PortsAt at = ScaledKinematics(slot, x);
+    const double gap = at[kNormal].motion, rn = x[slot.rn];
+    at.AddForce(at[kNormal].gradient, -rn, &force);
+    (*values)[slot.gap_row] = gap;
+    (*values)[slot.gap_row + 1] = gap * rn;
+    if (slot.rt < 0) continue;
+    const double slip = at[kTangent].motion, rt = x[slot.rt], lambda = x[slot.lambda];
+    const double mu = slot.pair->Friction();
+    at.AddForce(at[kTangent].gradient, -rt * at[kTangent].factor, &force);
+    values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
+        lambda * mu * rn + slip * rt;
+  }
+  for (const Support& support : supports_) {
+    const PrescribedDof& prescribed = *support.prescribed;
+    force[prescribed.dof] -= x[support.reaction];
+    (*values)[support.row] = (from_.u[prescribed.dof] - prescribed.start - prescribed.rate * from_.s) / goal_.length +
+                             x[prescribed.dof] - prescribed.rate * x[nd];
+  }
+  values->head(nd) = force;
+}
+
+template <typename Visit>
+void IncrementProblem::ForEachVariable(const Slot& slot, Visit visit) const {
+  Eigen::Index k = 0;
+  for (const int dof : slot.dofs) visit(static_cast<Eigen::Index>(dof), k++);
+  visit(structure_.NumDofs(), k);
+}
+
+template <typename Visit>
+void IncrementProblem::ForEachGapVariable(const Slot& slot, Visit visit) const {
+  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+    if (slot.law->Moves(kNormal, static_cast<std::size_t>(k))) visit(variable, k);
+  });
+}
+
+template <typename Visit>
+void IncrementProblem::ForEachXiVariable(const Slot& slot, Visit visit) const {
+  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+    if (slot.law->Moves(kTangent, static_cast<std::size_t>(k))) visit(variable, k);
+  });
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  structure_.Tangent(from_.u + goal_.length * x.head(nd), &tangent_);
+  for (Eigen::Index column = 0; column < nd; ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it) emit(it.row(), column, it.value());
+  for (Eigen::Index row = 0; row < nd; ++row)
+    if (structure_.ReferenceLoad()[row] != 0.0) emit(row, nd, -structure_.ReferenceLoad()[row]);
+  for (const Slot& slot : slots_) {
+    const PortsAt at = ScaledKinematics(slot, x);
+    const double rn = x[slot.rn];
+    ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+      const double gradient = at[kNormal].gradient[k];
+      if (variable < nd) emit(variable, slot.rn, -gradient);
+      emit(slot.gap_row, variable, gradient);
+      emit(slot.gap_row + 1, variable, gradient * rn);
+    });
+    emit(slot.gap_row + 1, slot.rn, at[kNormal].motion + slot.compliance * rn);
+    if (slot.compliance > 0.0) emit(slot.gap_row, slot.rn, slot.compliance);
+    if (slot.law->Curved()) {
+      // r_n and r_t over S, and Hessians times S.
+      LawMatrix change = rn * at[kNormal].hessian;
+      if (slot.rt >= 0) change += (x[slot.rt] * at[kTangent].factor) * at[kTangent].hessian;
+      if (slot.rt >= 0 && slot.pair->Deformable())
+        change += x[slot.rt] * at[kTangent].gradient * at[kTangent].factor_gradient.transpose();
+      ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
+        if (row == nd) return;
+        ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) { emit(row, column, -change(a, b)); });
+      });
+    }
+    if (slot.rt < 0) continue;
+    const double slip = at[kTangent].motion, rt = x[slot.rt], lambda = x[slot.lambda];
+    const double mu = slot.pair->Friction();
+    ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+      const double gradient = at[kTangent].gradient[k];
+      if (variable < nd) emit(variable, slot.rt, -at[kTangent].factor * gradient);
+      emit(slot.friction_row, variable, -gradient);
+      emit(slot.friction_row + 1, variable, gradient);
+      emit(slot.friction_row + 4, variable, gradient * rt);
+    });
+    emit(slot.friction_row, slot.lambda, 1.0);
+    emit(slot.friction_row + 1, slot.lambda, 1.0);
+    emit(slot.friction_row + 2, slot.rn, mu);
+    emit(slot.friction_row + 2, slot.rt, -1.0);
+    emit(slot.friction_row + 3, slot.rn, mu);
+    emit(slot.friction_row + 3, slot.rt, 1.0);
+    emit(slot.friction_row + 4, slot.lambda, mu * rn);
+    emit(slot.friction_row + 4, slot.rn, mu * lambda);
+    emit(slot.friction_row + 4, slot.rt, slip);
+  }
+  for (const Support& support : supports_) {
+    emit(support.prescribed->dof, support.reaction, -1.0);
+    emit(support.row, support.prescribed->dof, 1.0);
+    emit(support.row, nd, -support.prescribed->rate);
+  }
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                                           Emit emit) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  // Second order of the equilibrium rows: S times the derivative of the tangent along their multipliers.
+  structure_.TangentDerivative(from_.u + goal_.length * x.head(nd), multipliers.head(nd), &tangent_);
+  for (Eigen::Index column = 0; column < nd; ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
+      if (it.row() >= column)
+        emit(it.row(), column, goal_.length * it.value() + (it.row() == column ? factor * goal_.gamma2_factor : 0.0));
+  emit(nd, nd, factor * goal_.gamma2_factor);
+  for (const Slot& slot : slots_) {
+    const PortsAt at = ScaledKinematics(slot, x);
+    const double gap_product = multipliers[slot.gap_row + 1];
+    if (slot.compliance > 0.0) emit(slot.rn, slot.rn, 2.0 * slot.compliance * gap_product);
+    ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+      emit(slot.rn, variable, gap_product * at[kNormal].gradient[k]);
+    });
+    const double slip_product = slot.rt < 0 ? 0.0 : multipliers[slot.friction_row + 4];
+    if (slot.rt >= 0) {
+      emit(slot.lambda, slot.rn, slip_product * slot.pair->Friction());
+      ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+        emit(slot.rt, variable, slip_product * at[kTangent].gradient[k]);
+      });
+    }
+    if (slot.law->Curved()) ForEachCurvatureEntry(slot, at, x, multipliers, emit);
+  }
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                             const Eigen::VectorXd& multipliers, Emit emit) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  const Law& law = *slot.law;
+  const bool frictional = slot.rt >= 0, deformable = slot.pair != nullptr && slot.pair->Deformable();
+  const double rn = x[slot.rn], rt = frictional ? x[slot.rt] : 0.0;
+  // The multipliers of the equilibrium equations; the multiplier of the load factor is none.
+  const LawVector weights = at.Local(multipliers.head(nd), 0.0);
+  const LawVector by_rn = at[kNormal].hessian * weights;
+  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rn, variable, -by_rn[k]); });
+  double along_gap = multipliers[slot.gap_row] + multipliers[slot.gap_row + 1] * rn, along_xi = 0.0;
+  if (frictional) {
+    LawVector by_rt = at[kTangent].factor * (at[kTangent].hessian * weights);
+    if (deformable) by_rt += at[kTangent].gradient.dot(weights) * at[kTangent].factor_gradient;
+    ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rt, variable, -by_rt[k]); });
+    along_xi =
+        multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
+  }
+  LawMatrix second;
+  const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
+  const double s = from_.s + goal_.length * x[nd];
+  const int patch = PatchOf(slot, u, s);
+  const LawDofs dofs = law.Dofs(patch);
+  law.ForceHessian(u, s, patch, {rn, rt}, LocalOf(dofs, multipliers.head(nd), 0.0), &second);
+  if (deformable) second = Spread(second, dofs, slot.dofs);
+  LawMatrix along = along_gap * at[kNormal].hessian;
+  if (frictional) along += along_xi * at[kTangent].hessian;
+  second = along - goal_.length * goal_.length * second;
+  ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
+    ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) {
+      if (row >= column) emit(row, column, second(a, b));
+    });
+  });
+}
+
+void IncrementProblem::RecordStructures() {
+  const Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
+  const auto record = [](std::vector<MatrixEntry>* structure_out) {
+    return [structure_out](Eigen::Index row, Eigen::Index column, double) {
+      structure_out->push_back({static_cast<int>(row), static_cast<int>(column)});
+    };
+  };
+  ForEachJacobianEntry(x, record(&jacobian_structure_));
+  ForEachHessianEntry(x, 1.0, Eigen::VectorXd::Zero(num_constraints_), record(&hessian_structure_));
+}
+
+void IncrementProblem::JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
+  values->resize(static_cast<Eigen::Index>(jacobian_structure_.size()));
+  Eigen::Index k = 0;
+  ForEachJacobianEntry(x, [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
+}
+
+void IncrementProblem::HessianValues(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                                     Eigen::VectorXd* values) const {
+  values->resize(static_cast<Eigen::Index>(hessian_structure_.size()));
+  Eigen::Index k = 0;
+  ForEachHessianEntry(x, factor, multipliers,
+                      [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
+}
+
+}  // namespace contact_path
