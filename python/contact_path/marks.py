@@ -29,6 +29,9 @@ INSIDE = ('regular', 'sample')  # kinds of increments with the verdict of the ar
 # Colours of the contact states: they differ for those who see no red or no green, too.
 STATES = {'open': '#ffffff', 'stick': '#d55e00', 'slip+': '#f0c000', 'slip-': '#56b4e9', 'closed': '#009e73'}
 
+# The same of bars that bear in one sense alone.
+BAR_STATES = {'taut': '#44546a', 'slack': '#e3d9ec'}
+
 # Of lines where there are several paths. They differ for those who see no red or no green, too.
 COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#333333', '#7b4b2a', '#6a3d9a', '#999999')
 

@@ -49,8 +49,8 @@ class Progress {
 };
 
 // request: expanded (scene/expand.h). Writes the branches from `increment`, a line each, best first; nothing where no
-// branches part. Of the contacts it names those that change their state, and counts the others. load_scale: of the load
-// factor, ProgramScales(request).load_factor.
+// branches part. Of the contacts and bars it names those that change their state, and counts the others. load_scale: of
+// the load factor, ProgramScales(request).load_factor.
 void PrintBranches(const TraceRequest& request, const Increment& increment, double load_scale, std::ostream& out);
 
 }  // namespace contact_path

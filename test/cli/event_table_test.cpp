@@ -11,7 +11,7 @@ TEST(EventTable, NamesWhatChangesAndHasNoNumbersOfRounding) {
   TraceRequest request;
   request.scene.contacts = {{"b", "floor"}, {"c", "floor"}};
   request.scene.bars.resize(4);
-  for (const std::size_t i : {1, 3}) request.scene.bars[i].sense = BarSense::kTension;
+  for (const std::size_t i : {1U, 3U}) request.scene.bars[i].sense = BarSense::kTension;
   request.scene.bars[3].name = "rope";
   Increment increment;
   increment.index = 7;

@@ -26,11 +26,11 @@ def reaction(rx, ry, rm=0.0):
     return SimpleNamespace(rx=rx, ry=ry, rm=rm)
 
 
-def increment(places, contacts=(), rotation=(), supports=(), load_factor=1.0, stage=0, kind=1, unstable=()):
+def increment(places, contacts=(), rotation=(), supports=(), load_factor=1.0, stage=0, kind=1, unstable=(), bars=()):
     """As a message, as far as it is drawn."""
     x, y = np.transpose(places)
     return SimpleNamespace(index=17, kind=kind, stage=stage, load_factor=load_factor, x=x, y=y, contacts=contacts, rotation=rotation,
-                           supports=supports, unstable_direction=unstable)
+                           supports=supports, unstable_direction=unstable, bars=bars)
 
 
 def slope():
@@ -97,6 +97,14 @@ class MarkersTest(unittest.TestCase):
                 self.assertEqual(len(marker.points) % {5: 2, 11: 3}.get(marker.type, 1), 0)
                 self.assertIn(len(marker.colours), (0, len(marker.points)))
         self.assertNotIn(('contacts', 0), drawn(pictures[2]))
+
+    def test_bars_that_are_slack_are_thin(self):
+        scene = slope()
+        scene.request['scene']['bars'][1]['sense'] = 'tension'
+        for bars, wide, thin in ([0], 2, 0), ([1], 1, 1):
+            picture = SceneMarkers(scene).draw(on_slope(bars=bars), 2.0)
+            self.assertEqual(len(points(picture, 'structure', 0)), 2 * wide)
+            self.assertEqual(len(points(picture, 'structure', 2)) if thin else 0, 2 * thin)
 
     def test_structure_as_it_was_and_is(self):
         picture = SceneMarkers(slope()).draw(on_slope(), 2.0)

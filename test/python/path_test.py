@@ -19,6 +19,9 @@ ROOT = os.environ['CONTACT_PATH_ROOT']
 TRACE = os.path.join(os.environ['CONTACT_PATH_PROGRAMS'], 'contact_path_trace')
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 import contact_path as cp  # noqa: E402
+from contact_path.page.points import Points  # noqa: E402
+from contact_path.structure.arrays import Structure  # noqa: E402
+from contact_path.structure.shapes import Shape, View  # noqa: E402
 
 
 class PathTest(ProgramTest):
@@ -136,6 +139,41 @@ class PathTest(ProgramTest):
             self.assertEqual(wrong.exception.args[0], told)
         with self.assertRaisesRegex(ValueError, '^no quantity flor.y: no node or obstacle flor, there are p, floor; did you mean floor.y.$'):
             with_scene.quantity('flor.y')
+
+    def test_bars_that_are_slack(self):
+        import matplotlib
+        matplotlib.use('Agg')
+        scene = cp.Scene('two strings')
+        scene.node('a', x=-1.0, fixed_x=True, fixed_y=True)
+        scene.node('b', x=1.0, fixed_x=True, fixed_y=True)
+        scene.node('p')
+        scene.bar(['a', 'b'], EA=1.0)
+        scene.bar(['a', 'p'], EA=2.0, sense='tension')
+        scene.bar(['p', 'b'], EA=2.0, rest_length=0.9, sense='tension', name='right')
+        scene.superelement(['p'], stiffness=[1.0, 0.0, 0.0, 1.0])
+        scene.load(node='p', fx=1.0)
+        path = cp.trace(scene, stop=[{'quantity': 'p.x', 'when': '>', 'value': 0.3}])
+        self.assertEqual(path.bars, ['bar2', 'right'])
+        event, = path.events
+        self.assertEqual(event['branches'][0]['states'], {'bar2': 'taut', 'right': 'slack'})
+        figure = path.plot('p.x', shapes=True, states=True, file=self.path('s.png'))
+        texts = [text.get_text() for axes in figure.axes for text in axes.get_yticklabels()]
+        self.assertLess({'bar2', 'right'}, set(texts))
+        legends = [text.get_text() for legend in figure.findobj(matplotlib.legend.Legend) for text in legend.get_texts()]
+        for state in 'taut', 'slack', 'slack bar':
+            self.assertIn(state, legends)
+        # In a page one of two lines of each such bar has no length: the dotted one while it is taut.
+        structure = Structure(path.scene)
+        points = Points(structure, False)
+        for row in 0, len(path) - 1:
+            shape = Shape(structure, path.increment(row))
+            slack = path['state_right'][row] == 'slack'
+            self.assertEqual(shape.slack.tolist(), [False, False, slack])
+            places = points.places(shape, View([shape]))
+            for state, seen in ('taut', not slack), ('slack', slack):
+                begin, end, _ = points.one_sided_bars(state)[3:]
+                np.testing.assert_array_equal(places[[begin, end]], [[path['x_p'][row], 0.0], [1.0 if seen else path['x_p'][row], 0.0]])
+        path.page(file=self.path('s.html'))
 
     def test_plot(self):
         import matplotlib

@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Mapping, Sequence, Tuple
 
 import numpy as np
 
-from contact_path.increments import PRESSURES, SECTIONS, STATES, STRESSES, Increments
+from contact_path.increments import BAR_STATES, PRESSURES, SECTIONS, STATES, STRESSES, Increments
 from contact_path.structure.arrays import Structure
 from contact_path.structure.response import with_response
 from contact_path.structure.shapes import Curve, Shape
@@ -86,7 +86,7 @@ def structure_mesh(structure: Structure, shape: Shape) -> Any:
             'rotation': np.nan_to_num(structure.rotations(increment)), 'load': in_space(shape.loads + shape.constant_loads),
             'moment': shape.moments + shape.constant_moments, 'contact_force': in_space(reactions), 'contact_state': states,
             'support_force': in_space(supports[:, :2]), 'support_moment': supports[:, 2], **pressures(structure, increment)},
-        cell_data=cell_data(increment, cells))
+        cell_data=cell_data(structure, increment, cells))
 
 
 def pressures(structure: Structure, increment: Mapping[str, Any]) -> Dict[str, np.ndarray]:
@@ -111,9 +111,13 @@ def cell_blocks(structure: Structure) -> List[Tuple[str, np.ndarray, List[str]]]
     return [block for block in blocks if len(block[1])]
 
 
-def cell_data(increment: Dict[str, Any], cells: Sequence[Tuple[str, np.ndarray, List[str]]]) -> Dict[str, List[np.ndarray]]:
-    """Section forces and stresses that the increment carries; nan in cells that have none."""
+def cell_data(structure: Structure, increment: Dict[str, Any], cells: Sequence[Tuple[str, np.ndarray, List[str]]]) -> Dict[str, List[np.ndarray]]:
+    """Section forces and stresses that the increment carries, and states of bars; nan in cells that have none."""
     data = {}
+    if structure.one_sided:  # bars are the first block
+        data['bar_state'] = [np.full(len(names), np.nan) for _, _, names in cells]
+        for i, name in structure.one_sided.items():
+            data['bar_state'][0][i] = BAR_STATES.index(increment['state_' + name])
     for field in (*SECTIONS, *STRESSES):
         values = [np.array([increment.get('%s_%s' % (field, name), np.nan) for name in names]) for _, _, names in cells]
         if not all(np.isnan(part).all() for part in values):

@@ -9,8 +9,9 @@ picture replaces the one before, whatever the scene, and is whole by itself.
                   2  strokes on the boundaries that move, which go along
   initial         0  bars, all elements of two nodes, and beams, in the initial shape
                   1  nodes, without the inner nodes of beams
-  structure       0  bars, and beams: curves with the directions that the rotations of the nodes give
+  structure       0  bars that bear, and beams: curves with the directions that the rotations of the nodes give
                   1  nodes, without the inner nodes of beams
+                  2  bars that are slack, thin
   superelements   0  lines from the nodes to their middle; of a single node, to its rest position
                   1  these middles
   solids          0  elements in the initial shape: their boundaries
@@ -38,7 +39,7 @@ from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
-from contact_path.increments import KINDS, STATES, Increments
+from contact_path.increments import BAR_STATES, KINDS, STATES, Increments
 from contact_path.io.text import printable
 from contact_path.markers.picture import CUBES, SPHERES, Layer, Marker, Picture, chain, rgba, strip
 from contact_path.marks import MARKS, STATES as STATE_COLOURS
@@ -194,6 +195,8 @@ class SceneMarkers:
             state.update(zip((axis + name for name in structure.names), values))
         for name, of in zip(structure.contacts, increment.contacts):
             state.update({'state_' + name: STATES[of.state], 'gap_' + name: of.gap, 'rn_' + name: of.rn, 'rt_' + name: of.rt})
+        for name, bar in zip(structure.one_sided.values(), getattr(increment, 'bars', ())):
+            state['state_' + name] = BAR_STATES[bar]
         if structure.solids:
             alone = Increments({name: np.array([value]) for name, value in {**state, 'stage': increment.stage}.items()}, scene=self.scene)
             state.update((name, values[0]) for name, values in columns(alone, ['stresses']).items())
@@ -246,8 +249,9 @@ class SceneMarkers:
         at_rest = structure.beams.curves(structure.initial, np.zeros(len(outer)))
         picture.lines('initial', 0, THIN, INITIAL, Layer.INITIAL, joined([structure.initial[structure.bars], chain(at_rest)]))
         picture.dots('initial', 1, SPHERES, 0.6, INITIAL, Layer.INITIAL, structure.initial[outer])
-        picture.lines('structure', 0, WIDE, BARS, Layer.BARS, joined([shape.places[structure.bars], chain(shape.beams)]))
+        picture.lines('structure', 0, WIDE, BARS, Layer.BARS, joined([shape.places[structure.bars[~shape.slack]], chain(shape.beams)]))
         picture.dots('structure', 1, SPHERES, 1.0, BARS, Layer.NODES, shape.places[outer])
+        picture.lines('structure', 2, THIN, BARS, Layer.BARS, shape.places[structure.bars[shape.slack]])
         rays = [(shape.places[node], hub) for (nodes, _), hub in zip(structure.superelements, shape.hubs) for node in nodes]
         picture.lines('superelements', 0, WIDE, SPRING, Layer.SPRINGS, rays)
         picture.dots('superelements', 1, CUBES, 1.0, SPRING, Layer.SPRINGS, shape.hubs)

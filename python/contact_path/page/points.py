@@ -1,7 +1,7 @@
 """The points that a page moves from step to step, and the lists of them that make lines, arrows and areas."""
 from __future__ import annotations
 
-from typing import Any, Dict, Sequence
+from typing import Any, Dict, Sequence, Tuple
 
 import numpy as np
 
@@ -38,6 +38,9 @@ class Points:
         self.thinned = [np.arange(0, len(points), SURFACE_STEP) for points in surfaces]
         self.add('surfaces', sum(map(len, self.thinned)))
         self.add('hubs', len(structure.superelements))
+        self.one_sided = np.array(list(structure.one_sided), dtype=int)
+        self.add('taut', len(self.one_sided))
+        self.add('slack', len(self.one_sided))
         self.add('reactions', contacts)
         self.add('cones', contacts, 2)
         for name in FORCES:
@@ -62,7 +65,7 @@ class Points:
         """(count, 2) in an increment; nan where an arrow is too short to be seen."""
         surfaces = [points[some] for points, some in zip(shape.surfaces, self.thinned)]
         parts = [shape.places, shape.beams[:, self.within].reshape(-1, 2), *surfaces, np.reshape(shape.hubs, (-1, 2)),
-                 tips(shape.touching, shape.reactions, view), cones(shape, view).reshape(-1, 2)]
+                 *self.ends(shape), tips(shape.touching, shape.reactions, view), cones(shape, view).reshape(-1, 2)]
         for name in FORCES:
             nodes = self.loaded[name]
             parts.append(tips(shape.places[nodes], getattr(shape, name)[nodes], view))
@@ -73,13 +76,20 @@ class Points:
             parts.append(long_ones(shape.places, view.unstable_arrows(shape), view))
         return np.vstack(parts)
 
+    def ends(self, shape: Shape) -> Tuple[np.ndarray, np.ndarray]:
+        """Of the lines of bars that bear in one sense alone, where they are taut, and where they are slack: the line that does not
+        hold ends where it begins."""
+        (first, last), slack = shape.places[shape.structure.bars[self.one_sided]].transpose(1, 0, 2), shape.slack[self.one_sided, None]
+        return np.where(slack, first, last), np.where(slack, last, first)
+
     def initial(self) -> np.ndarray:
-        """(count, 2) at the start, of nodes and beams; nan of all others."""
+        """(count, 2) at the start, of nodes, beams and bars; nan of all others."""
         structure = self.structure
         beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
         places = np.full((self.count, 2), np.nan)
         places[self.groups['nodes']] = structure.initial
         places[self.groups['beams']] = beams[:, self.within]
+        places[self.groups['taut']] = structure.initial[structure.bars[self.one_sided, 1]]
         return places
 
     # Lists of points.
@@ -87,8 +97,13 @@ class Points:
     def members(self) -> np.ndarray:
         """Bars and beams."""
         nodes = self.structure.beams.nodes
+        bars = np.delete(self.structure.bars, self.one_sided, axis=0)
         beams = np.column_stack((nodes[:, :1], self.groups['beams'], nodes[:, 1:]))
-        return trails(np.vstack((edges_of(self.structure.bars), edges_of(beams))))
+        return trails(np.vstack((edges_of(bars), edges_of(beams))))
+
+    def one_sided_bars(self, state: str) -> np.ndarray:
+        """state: 'taut' or 'slack'."""
+        return joined(np.column_stack((self.structure.bars[self.one_sided, 0], self.groups[state])))
 
     def edges(self) -> np.ndarray:
         """Of solids."""

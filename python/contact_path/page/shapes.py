@@ -77,7 +77,7 @@ def line_width(structure: Structure) -> float:
 def still(points: Points) -> List[Entry]:
     """The shape at the start, and entries of the legend."""
     structure = points.structure
-    numbers = np.concatenate((points.members(), points.edges()))
+    numbers = np.concatenate((points.members(), points.one_sided_bars('taut'), points.edges()))
     places = np.where(numbers[:, None] == GAP, np.nan, points.initial()[numbers])
     traces = [{'type': 'scatter', 'mode': 'lines', 'x': plain(places[:, 0]), 'y': plain(places[:, 1]), 'hoverinfo': 'skip',
                'name': 'initial shape', 'line': {'color': INITIAL, 'width': 0.7 * line_width(structure)}}]
@@ -110,6 +110,8 @@ def moving(points: Points) -> List[Entry]:
     lines(points.edges(), line={'color': BARS, 'width': 0.5 if many else 0.8}, named=True)
     areas(points.cones(), rgba(REACTION, 0.15), name='friction cone', showlegend=bool(np.any(structure.friction > 0.0)))
     lines(points.members(), line={'color': BARS, 'width': width}, named=True)
+    lines(points.one_sided_bars('taut'), line={'color': BARS, 'width': width})
+    lines(points.one_sided_bars('slack'), line={'color': BARS, 'width': 0.6 * width, 'dash': 'dot'}, name='slack bar', showlegend=True)
     lines(points.surfaces(), line={'color': SURFACE, 'width': 1.5}, name='surface in contact', showlegend=True)
     lines(points.hubs(), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name='superelement', showlegend=True)
     if not many:

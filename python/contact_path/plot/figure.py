@@ -145,8 +145,8 @@ def draw(paths: Sequence[Increments], x: str | None = None, y: str = 'load_facto
     chosen = []
 
     def check(path: Increments) -> None:
-        if states and not path.contacts:
-            raise ValueError('--states: no contacts')
+        if states and not path.contacts + path.bars:
+            raise ValueError('--states: no contacts, and no bars that bear in one sense alone')
         if shapes or at or increments:
             chosen.append(choose_rows(path, at, increments))
 
@@ -174,7 +174,7 @@ def choose_rows(path: Increments, at: str | None, increments: Sequence[int | str
 
 def make_page(paths: Sequence[Increments], x: str, y: str, states: bool, energy: bool, chosen: Chosen) -> Page:
     """chosen: empty where no shapes are drawn."""
-    names = [panels.short(name) for path in paths for name in path.contacts] if states else []
+    names = [panels.short(name) for path in paths for name in path.contacts + path.bars] if states else []
     beside = panels.legend_width(paths)
     page = Page((WIDTH_WITH_SHAPES if chosen else WIDTH) + beside, max([LEFT] + [0.2 + 0.085 * len(name) for name in names]),
                 RIGHT + beside)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from contact_path.increments import Increments
-from contact_path.marks import (COLOURS, ENERGIES, FEW_PATHS, MARKS, STATES, VERDICTS, Part, jumps, kinds_marked, line_parts, points,
+from contact_path.marks import (BAR_STATES, COLOURS, ENERGIES, FEW_PATHS, MARKS, STATES, VERDICTS, Part, jumps, kinds_marked, line_parts, points,
                                 verdicts_shown)
 from contact_path.quantities import label
 
@@ -192,22 +192,24 @@ def text_box(place: np.ndarray, direction: np.ndarray, gap: float, size: np.ndar
     return middle - 0.5 * size, middle + 0.5 * size
 
 
-def contacts_shown(path: Increments) -> List[str]:
-    """Those that get a bar: all, unless there are many."""
-    contacts = path.contacts
-    if len(contacts) <= MOST_CONTACTS:
-        return contacts
-    return [contact for contact in contacts if not np.all(np.isin(path['state_' + contact], ('', 'open')))]
+def parts_shown(path: Increments) -> List[str]:
+    """The contacts and bars that get a strip: all, unless there are many."""
+    parts = path.contacts + path.bars
+    if len(parts) <= MOST_CONTACTS:
+        return parts
+    return [part for part in parts if not np.all(np.isin(path['state_' + part], ('', 'open', 'taut')))]
 
 
 def states_title(path: Increments, several: bool) -> str:
-    left_out = len(path.contacts) - len(contacts_shown(path))
-    return (path.title if several else 'Contacts') + (', %d more stay open' % left_out if left_out else '')
+    left_out = len(path.contacts) + len(path.bars) - len(parts_shown(path))
+    stay = ' or '.join(state for parts, state in ((path.contacts, 'open'), (path.bars, 'taut')) if parts)
+    kinds = ' and '.join(kind for parts, kind in ((path.contacts, 'contacts'), (path.bars, 'bars')) if parts).capitalize()
+    return (path.title if several else kinds) + (', %d more stay %s' % (left_out, stay) if left_out else '')
 
 
 def states_height(path: Increments) -> float:
-    """Of the bars, in inches."""
-    count = max(len(contacts_shown(path)), 1)
+    """Of the strips, in inches."""
+    count = max(len(parts_shown(path)), 1)
     return count * min(TALLEST_BAR, TALLEST_STATES / count)
 
 
@@ -232,23 +234,23 @@ def arcs(path: Increments, contact: str) -> Dict[str, List[Tuple[float, float]]]
 
 
 def draw_states(axes: Axes, path: Increments, arc_length: float) -> None:
-    """A bar for each contact, over arc length, in the colours of its states. arc_length: as far as the panel goes."""
-    contacts = contacts_shown(path)
+    """A strip for each contact and bar, over arc length, in the colours of its states. arc_length: as far as the panel goes."""
+    parts, colours = parts_shown(path), {**STATES, **BAR_STATES}
     used: set[str] = set()
-    for line, contact in enumerate(contacts):
-        for state, spans in arcs(path, contact).items():
-            axes.broken_barh(spans, (line - 0.4, 0.8), facecolor=STATES[state], edgecolor=EDGE, linewidth=0.4)
+    for line, part in enumerate(parts):
+        for state, spans in arcs(path, part).items():
+            axes.broken_barh(spans, (line - 0.4, 0.8), facecolor=colours[state], edgecolor=EDGE, linewidth=0.4)
             used.add(state)
-    height = 72.0 * states_height(path) / max(len(contacts), 1)  # of a line, in points
+    height = 72.0 * states_height(path) / max(len(parts), 1)  # of a line, in points
     step = math.ceil(7.0 / height)
-    axes.set_yticks(range(0, len(contacts), step))
-    axes.set_yticklabels([short(contact) for contact in contacts[::step]], fontsize=max(7.0, min(10.0, 0.6 * height)))
-    axes.set_ylim(max(len(contacts), 1) - 0.5, -0.5)
+    axes.set_yticks(range(0, len(parts), step))
+    axes.set_yticklabels([short(part) for part in parts[::step]], fontsize=max(7.0, min(10.0, 0.6 * height)))
+    axes.set_ylim(max(len(parts), 1) - 0.5, -0.5)
     axes.set_xlim(0.0, arc_length)
     axes.set_xlabel(label('arc_length'), fontsize=12)
     axes.legend(handles=[Rectangle((0, 0), 1, 1, facecolor=colour, edgecolor=EDGE, linewidth=0.6, label=state)
-                         for state, colour in STATES.items() if state in used],
-                fontsize=10, loc='lower right', bbox_to_anchor=(1.0, 1.0), ncol=len(STATES), frameon=False,
+                         for state, colour in colours.items() if state in used],
+                fontsize=10, loc='lower right', bbox_to_anchor=(1.0, 1.0), ncol=len(colours), frameon=False,
                 borderpad=0.2, handlelength=1.2, columnspacing=1.2)
 
 

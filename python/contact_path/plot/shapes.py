@@ -76,8 +76,9 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
     initial_beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
     for lines in structure.initial[structure.bars], initial_beams:
         draw_lines(axes, lines, color=INITIAL, linewidth=0.7 * width, zorder=1)
-    for lines in shape.places[structure.bars], shape.beams:
+    for lines in shape.places[structure.bars[~shape.slack]], shape.beams:
         draw_lines(axes, lines, color=BARS, linewidth=width, zorder=3)
+    draw_lines(axes, shape.places[structure.bars[shape.slack]], color=BARS, linewidth=0.6 * width, linestyle=':', zorder=3)
     for (nodes, _), hub in zip(structure.superelements, shape.hubs):
         draw_lines(axes, [(hub, shape.places[node]) for node in nodes], color=BARS, linewidth=1.2, linestyle='--',
                    zorder=3)
@@ -281,6 +282,8 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
                                   label='%s, 3/4 turn: %.3g [force length]' % (kind, view.full_moment)))
     if any(shape.unstable is not None for shape in shapes):
         handles.append(arrow(UNSTABLE, 'unstable direction'))
+    if any(np.any(shape.slack) for shape in shapes):
+        handles.append(Line2D([], [], color=BARS, linewidth=0.9, linestyle=':', label='slack bar'))
     handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
     if any(structure.superelements for structure in structures):
         handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label='superelement'))

@@ -49,6 +49,9 @@ class Structure:
                    for entry in entries if 'nodes' in entry]
         bars = [bar['nodes'] for bar in scene['bars']]
         self.bar_names = names['sections'][:len(bars)]
+        # Of those that bear in one sense alone: index and name.
+        one_sided = (i for i, bar in enumerate(scene['bars']) if bar['sense'] not in ('', 'both'))
+        self.one_sided = dict(zip(one_sided, names.get('bars', ())))
         bars += [nodes for nodes in further if len(nodes) == 2]
         self.bar_names += [''] * (len(bars) - len(self.bar_names))
         self.bars = np.array([[index[name] for name in nodes] for nodes in bars], dtype=int).reshape(-1, 2)

@@ -60,6 +60,9 @@ class Shape:
         self.unstable = unstable
         self.places = structure.positions(increment)
         self.states = [increment['state_' + name] for name in structure.contacts]
+        self.slack = np.zeros(len(structure.bars), dtype=bool)  # of the bars; they bear nothing
+        for i, name in structure.one_sided.items():
+            self.slack[i] = increment.get('state_' + name) == 'slack'
         self.gaps = structure.of_contacts(increment, 'gap_')
         rn = structure.of_contacts(increment, 'rn_')[:, None]
         placements = {name: structure.placement(name, increment) for name in structure.obstacles}
