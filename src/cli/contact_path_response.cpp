@@ -31,6 +31,12 @@ ContactState StateFrom(const std::string& word) {
   throw std::invalid_argument("state = " + word + ": must be open, closed, stick, slip+ or slip-");
 }
 
+BarState BarStateFrom(const std::string& word) {
+  for (const BarState state : {BarState::kTaut, BarState::kSlack})
+    if (word == ToString(state)) return state;
+  throw std::invalid_argument("bars: " + word + ": must be taut or slack");
+}
+
 // Throws Json::exception and std::invalid_argument for another type. stages: of the program; 0: there is none.
 Increment IncrementFrom(const Json& line, std::int64_t stages) {
   Increment increment;
@@ -50,6 +56,8 @@ Increment IncrementFrom(const Json& line, std::int64_t stages) {
     record.rt = contact.at("rt").get<double>();
     record.state = StateFrom(contact.at("state").get<std::string>());
   }
+  for (const std::string& word : line.value("bars", std::vector<std::string>()))
+    increment.bars.push_back(BarStateFrom(word));
   return increment;
 }
 
@@ -72,6 +80,7 @@ class Responder {
     RequireSize(increment.rotations.size(), HasRotations(Request().scene) ? Request().scene.nodes.size() : 0,
                 "rotations");
     RequireSize(increment.contacts.size(), Request().scene.contacts.size(), "contacts");
+    RequireSize(increment.bars.size(), OneSidedBars(Request().scene).size(), "bars");
     SetStage(static_cast<std::size_t>(std::max(increment.stage, 1) - 1));
     const PathPoint point = model_->FromIncrement(increment);
     FillState(*model_, point, &increment);

@@ -80,9 +80,13 @@ struct SymmetricFactors::Small {
   bool Factorize(const Matrix& scaled, Eigen::Index constraints) {
     dense.reset();
     // K + kStiffened C' C in place of K: the same solutions, and no pivot of an unknown that comes with its constraint
-    // is small.
+    // is small. Not of constraints that give way by themselves: they admit other motions.
+    const Eigen::Index unknowns = scaled.rows() - constraints;
     columns = scaled.rightCols(constraints);
-    columns.prune([&](Eigen::Index row, Eigen::Index, double) { return row < scaled.rows() - constraints; });
+    columns.prune([&](Eigen::Index row, Eigen::Index constraint, double) {
+      const double own = scaled.coeff(unknowns + constraint, unknowns + constraint);
+      return row < unknowns && (own == 0.0 || own == kCompliance);
+    });
     Matrix stiffened = scaled;
     if (constraints > 0) stiffened += Matrix(kStiffened * columns * Matrix(columns.transpose()));
     stiffened.makeCompressed();
@@ -220,7 +224,8 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
   }
   if (!scale_.allFinite() || !(scale_.array() > 0.0).all()) return false;
   Eigen::SparseMatrix<double> scaled = scale_.asDiagonal() * matrix * scale_.asDiagonal();
-  for (Eigen::Index k = unknowns; redundant && k < matrix.rows(); ++k) scaled.coeffRef(k, k) = kCompliance;
+  for (Eigen::Index k = unknowns; redundant && k < matrix.rows(); ++k)
+    if (double& own = scaled.coeffRef(k, k); own == 0.0) own = kCompliance;
   scaled.makeCompressed();
   if (!small_) small_ = std::make_unique<Small>();
   is_large_ = matrix.rows() >= kLargeSystem || !small_->Factorize(scaled, constraints);

@@ -15,6 +15,7 @@
 #include "support/deformable_scene.h"
 #include "support/derivative_checker.h"
 #include "support/mixed_scene.h"
+#include "support/points.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
 
@@ -272,8 +273,8 @@ TEST(CompliantProblem, DerivativesMeetDifferences) {
   scene.contacts = {{"a", "floor"}};
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
-  const SlackBar bar({SlackBar::End{{-1, -1}, {-1.0, 0.5}}, SlackBar::End{{0, 1}, {}}}, 1.7, 1.1, StrainMeasure::kBiot,
-                     BarSense::kTension);
+  const SlackBar bar(MovingPlace::Between(PointOfNode(-1, -1, {-1.0, 0.5}), PointOfNode(0, 1)), 1.7, 1.1,
+                     StrainMeasure::kBiot, BarSense::kTension);
   Laws laws = LawsOf(contacts);
   laws.Add(&bar);
   Random random(5);

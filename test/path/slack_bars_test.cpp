@@ -283,7 +283,6 @@ TEST(SlackBars, TellBranchesApart) {
   scene.superelements = {{{"p"}, {-1.5, 0.0, 0.0, 1.0}}};
   scene.loads = {{"p", 0.0, -1.0, false}};
   request.options.stop = {{"p.y", "<", -0.22}};
-  request.options.stability = DefaultTrue::kFalse;
   std::vector<std::vector<BarState>> found;
   for (int branch = 1; branch <= 3; ++branch) {
     SCOPED_TRACE(branch);

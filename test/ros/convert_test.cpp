@@ -108,7 +108,7 @@ Increment FullIncrement() {
   increment.widths = {77.0, 78.0};
   increment.event.branches = {
       {{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 35.5, 33.0, 34.0, {BarState::kTaut, BarState::kSlack}},
-      {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
+      {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0, 0.0, {}}};
   increment.event.number = 41;
   increment.event.taken = 1;
   increment.event.weakly_active = 38;

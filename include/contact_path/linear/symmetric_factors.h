@@ -8,9 +8,9 @@
 
 namespace contact_path {
 
-// Of [K C'; C 0], K unknowns x unknowns, C constraints x unknowns. By Sylvester's law of inertia D has as many negative
-// eigenvalues as the matrix. Below kLargeSystem without the BLAS, so that counts do not depend on the processor;
-// beyond, and where a small pivot takes digits, by MUMPS.
+// Of [K C'; C -D], K unknowns x unknowns, C constraints x unknowns, D >= 0 a diagonal, mostly zero. By Sylvester's law
+// of inertia D has as many negative eigenvalues as the matrix. Below kLargeSystem without the BLAS, so that counts do
+// not depend on the processor; beyond, and where a small pivot takes digits, by MUMPS.
 class SymmetricFactors {
  public:
   SymmetricFactors();
