@@ -79,20 +79,14 @@ inline constexpr double kRegularPivot = 1e-10;
 // scaled, whose reaction is measured in its own force unit: the equations come near to this.
 inline constexpr double kDependentColumn = 1e-11;
 // The root of rounding: what it leaves of columns, pivots and positions where the equations are known to be singular,
-// and of reactions of parts that are softer than this share of the characteristic stiffness.
+// and of reactions of parts that are softer than this share of the characteristic stiffness. Scaled motion per force by
+// which contacts of rigid bodies give way: as much as rounding of coordinates leaves of reactions then.
 inline constexpr double kRootOfRounding = 1e-8;
 // Pivot, singular value, sine or discriminant of few unknowns, relative to the largest: zero.
 inline constexpr double kDependent = 1e-9;
 // Norm of an equation, of the largest entries that its unknowns have in any equation: smaller, it is rounding where the
 // equations are singular, and counts as large as this: kDependentColumn then is kUnitComponent / 10 of these entries.
 inline constexpr double kFadingEquation = 1e-3;
-
-// ----- rigid bodies -----
-
-// Scaled motion per scaled force by which contacts of rigid bodies give way: of reactions that equilibrium does not
-// determine, the least norm comes near. The root of rounding: what rounding of the coordinates leaves of such reactions
-// is as much as the bodies give way.
-inline constexpr double kRigidCompliance = 1e-8;
 
 // ----- acceptance -----
 

@@ -107,7 +107,7 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       slip_origin = Eigen::Vector2d(slip_origins[k], slip_origins[k + 1]);
     contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, MovingPlace::SeenFrom(frame, point),
                                                    can_slide ? obstacle.friction : 0.0, force_bounds, slip_origin,
-                                                   of_body ? tolerances::kRigidCompliance : 0.0));
+                                                   of_body ? tolerances::kRootOfRounding : 0.0));
   }
   return contacts;
 }

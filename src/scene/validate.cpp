@@ -54,6 +54,10 @@ void CheckOptions(Checker* checker) {
   if (const std::vector<Node>& nodes = checker->GetScene().nodes;
       !options.LocatesEvents() && std::any_of(nodes.begin(), nodes.end(), IsBody))
     checker->Add(path.Key("method"), "mpec", "must be branch in a scene with rigid bodies");
+  if (const std::vector<Obstacle>& obstacles = checker->GetScene().obstacles;
+      options.friction_law == FrictionLaw::kTotal &&
+      std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) { return !obstacle.body.empty(); }))
+    checker->Add(path.Key("friction_law"), "total", "must be incremental where a body carries an obstacle");
   const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
   if (options.friction_law == FrictionLaw::kTotal &&
       std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))

@@ -120,11 +120,10 @@ bool MovingPlace::Affine() const {
   return std::none_of(terms_.begin(), terms_.end(), [](const Term& term) { return term.turns; });
 }
 
-bool MovingPlace::TurnsBy(Eigen::Index k) const {
-  return std::any_of(terms_.begin(), terms_.end(), [k](const Term& term) { return term.turn[k] != 0.0; });
+bool MovingPlace::Moves(Eigen::Index k) const {
+  return std::any_of(terms_.begin(), terms_.end(),
+                     [k](const Term& term) { return term.turn[k] != 0.0 || !term.motion.col(k).isZero(0.0); });
 }
-
-bool MovingPlace::Moves(Eigen::Index k) const { return TurnsBy(k) || !ConstantGradient().col(k).isZero(0.0); }
 
 Eigen::Vector2d MovingPlace::At(const Eigen::VectorXd& u, double s) const {
   const LawVector q = LocalOf(dofs_, u, s);

@@ -53,8 +53,6 @@ class MovingPlace {
   const Motion& ConstantGradient() const { return terms_.front().motion; }
   // Whether the place can change with the entry k of q.
   bool Moves(Eigen::Index k) const;
-  // Whether entry k of q turns it: the farther, the faster.
-  bool TurnsBy(Eigen::Index k) const;
   Eigen::Vector2d At(const Eigen::VectorXd& u, double s) const;
 
  private:
