@@ -60,6 +60,13 @@ class Element {
 // y, and, of elements that turn, in any direction.
 struct StiffnessBound {
   double x = 0.0, y = 0.0, any = 0.0;
+
+  StiffnessBound& operator+=(const StiffnessBound& other) {
+    x += other.x;
+    y += other.y;
+    any += other.any;
+    return *this;
+  }
 };
 
 // By node, at `values`, by difference quotients of the forces.

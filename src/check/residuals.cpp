@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "check/attached.h"
 #include "check/boundary.h"
 #include "check/contacts.h"
 #include "check/elements.h"
@@ -56,12 +57,6 @@ void RequireSize(const std::vector<double>& values, std::size_t size, const char
 
 // The scene with all names resolved; vectors in the order of the scene's lists.
 struct ResidualCheck::Prepared {
-  // A node, its body, and the place of the node in the body.
-  struct AttachedNode {
-    std::size_t node, body;
-    Real x, y;
-    bool turns = false;  // a beam turns it
-  };
   struct PreparedLoad {
     std::size_t node = 0;
     Real fx = 0.0L, fy = 0.0L, moment = 0.0L;
@@ -75,15 +70,9 @@ struct ResidualCheck::Prepared {
       free.push_back(!node.fixed_x);
       free.push_back(!node.fixed_y);
     }
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-      if (const Node& node = scene.nodes[i]; IsAttached(node)) {
-        const std::size_t body = index.at(node.body);
-        const Node& at = scene.nodes[body];
-        attached.push_back({i, body, static_cast<Real>(node.x) - at.x, static_cast<Real>(node.y) - at.y});
-      }
+    attached.emplace(scene, index);
     if (HasRotations(scene)) {
       const std::vector<bool> turn = NodesThatTurn(scene);
-      for (AttachedNode& at : attached) at.turns = turn[at.node];
       for (std::size_t i = 0; i < turn.size(); ++i) free.push_back(turn[i] && !scene.nodes[i].fixed_rotation);
       start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
     }
@@ -94,8 +83,7 @@ struct ResidualCheck::Prepared {
     std::vector<Real> stiffness(scene.nodes.size(), 0.0L);
     for (const auto& element : elements)
       for (const std::size_t node : element->Nodes()) stiffness[node] += element->Stiffness();
-    for (const AttachedNode& at : attached) stiffness[at.body] += stiffness[at.node];
-    for (const AttachedNode& at : attached) stiffness[at.node] = stiffness[at.body];
+    attached->Share(&stiffness);
     for (const Real at_node : stiffness) largest_stiffness = std::max(largest_stiffness, at_node);
     for (const Real at_node : stiffness) units.push_back(std::max<Real>(scaling.force, kStiffForce * at_node * size));
     // Summed by node, so that what cancels does so before the load factor makes it large.
@@ -147,26 +135,11 @@ struct ResidualCheck::Prepared {
 
   check::PlacedState Placed(const CheckedState& state) const { return {state, boundaries}; }
 
-  Vector PlaceOf(const AttachedNode& at, const CheckedState& state) const {
-    const Real turn = state.rotations[at.body], c = std::cos(turn), s = std::sin(turn);
-    return {state.positions[2 * at.body] + c * at.x - s * at.y, state.positions[2 * at.body + 1] + s * at.x + c * at.y};
-  }
-  // With attached nodes where their bodies have them.
-  CheckedState Settled(CheckedState state) const {
-    for (const AttachedNode& at : attached) {
-      const Vector place = PlaceOf(at, state);
-      state.positions[2 * at.node] = static_cast<double>(place.x);
-      state.positions[2 * at.node + 1] = static_cast<double>(place.y);
-      state.rotations[at.node] = at.turns ? state.rotations[at.body] : start[num_positions + at.node];
-    }
-    return state;
-  }
-
   // phi - T r on each component: internal forces less loads less reactions. What acts on an attached node acts on its
   // body.
   std::vector<Real> Unbalance(const CheckedState& given) const {
-    const CheckedState settled = attached.empty() ? CheckedState() : Settled(given);
-    const CheckedState& state = attached.empty() ? given : settled;
+    const CheckedState settled = attached->Empty() ? CheckedState() : attached->Settled(given);
+    const CheckedState& state = attached->Empty() ? given : settled;
     const std::vector<double> values = check::ValuesOf(state.positions, state.rotations);
     std::vector<Real> forces(values.size(), 0.0L);
     for (const auto& element : elements) element->AddForce(values, &forces);
@@ -181,19 +154,8 @@ struct ResidualCheck::Prepared {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
       contacts[i]->AddForces(placed, state.rn[i], state.rt[i], -1.0L, &forces);
     }
-    for (const AttachedNode& at : attached) GiveToBody(at, values, &forces);
+    attached->GiveToBodies(values, &forces);
     return forces;
-  }
-
-  // Takes the forces on an attached node to its body.
-  void GiveToBody(const AttachedNode& at, const std::vector<double>& values, std::vector<Real>* forces) const {
-    std::vector<Real>& f = *forces;
-    const Real fx = std::exchange(f[2 * at.node], 0.0L), fy = std::exchange(f[2 * at.node + 1], 0.0L);
-    const Real x = static_cast<Real>(values[2 * at.node]) - values[2 * at.body],
-               y = static_cast<Real>(values[2 * at.node + 1]) - values[2 * at.body + 1];
-    f[2 * at.body] += fx;
-    f[2 * at.body + 1] += fy;
-    f[num_positions + at.body] += x * fy - y * fx + std::exchange(f[num_positions + at.node], 0.0L);
   }
 
   void RequireSizes(const CheckedState& state) const {
@@ -207,7 +169,7 @@ struct ResidualCheck::Prepared {
   std::size_t num_positions;  // the first values, x0, y0, x1, ...; rotations by node follow where there are beams
   std::vector<double> start;  // values at load factor 0
   std::vector<bool> free;     // the same components
-  std::vector<AttachedNode> attached;
+  std::optional<const check::AttachedNodes> attached;
   std::vector<Real> units;        // by node: what unbalanced forces are measured in
   Real largest_stiffness = 0.0L;  // of all nodes, as LargestStiffness()
   std::vector<double> rates;      // of the fixed ones, per unit of the load factor
@@ -265,8 +227,8 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const Real place = scene.start[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
     residuals.support = Worst(residuals.support, std::abs(values[i] - place) * length / scaling.length);
   }
-  if (!scene.attached.empty()) {
-    const CheckedState settled = scene.Settled(now);
+  if (!scene.attached->Empty()) {
+    const CheckedState settled = scene.attached->Settled(now);
     for (std::size_t i = 0; i < now.positions.size(); ++i)
       residuals.support = Worst(residuals.support,
                                 std::abs(static_cast<Real>(now.positions[i]) - settled.positions[i]) / scaling.length);
@@ -413,11 +375,7 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
     bounds[load.node].x += static_cast<double>(std::abs(factor * load.fx));
     bounds[load.node].y += static_cast<double>(std::abs(factor * load.fy));
   }
-  for (const Prepared::AttachedNode& at : scene.attached)
-    for (double check::StiffnessBound::*const part :
-         {&check::StiffnessBound::x, &check::StiffnessBound::y, &check::StiffnessBound::any})
-      bounds[at.body].*part += bounds[at.node].*part;
-  for (const Prepared::AttachedNode& at : scene.attached) bounds[at.node] = bounds[at.body];
+  scene.attached->Share(&bounds);
   CheckedState start;
   const auto rotations = scene.start.begin() + static_cast<std::ptrdiff_t>(scene.num_positions);
   start.positions.assign(scene.start.begin(), rotations);

@@ -159,7 +159,7 @@ bool EventPassing::SlidesOff(const ArcStep& at, const PathPoint& point) const {
 std::vector<double> EventPassing::CrossingPath(const Crossing& crossing) const {
   const Eigen::Index motion = arc_->NumMotion();
   const auto along = crossing.along.first.head(motion), across = crossing.across.front().first.head(motion);
-  return model_.ComponentsOf((across - across.dot(along) * along).normalized());
+  return model_.ComponentsOf(crossing.x, (across - across.dot(along) * along).normalized());
 }
 
 }  // namespace contact_path

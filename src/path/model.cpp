@@ -76,11 +76,18 @@ Model::LoadSize Model::SizeOfLoads() const {
   return size;
 }
 
-std::vector<double> Model::ComponentsOf(const Eigen::VectorXd& motion) const {
+std::vector<double> Model::ComponentsOf(const Eigen::VectorXd& u, const Eigen::VectorXd& motion) const {
   std::vector<double> components(configuration.start.size(), 0.0);
   for (const DofMap::Component& of : structure.Dofs().Components())
     if (of.field == Field::kPosition && of.dof >= 0)
       components[static_cast<std::size_t>(kPositionComponents * of.node + of.component)] = motion[of.dof];
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    if (!IsAttached(scene.nodes[i])) continue;
+    const MovingPlace place(structure.PointOf(static_cast<int>(i)));
+    const Eigen::Vector2d of_node = PlaceAt(place, u, 0.0).first * LocalOf(place.Dofs(), motion, 0.0);
+    components[2 * i] = of_node.x();
+    components[2 * i + 1] = of_node.y();
+  }
   return components;
 }
 

@@ -32,7 +32,7 @@ Stability StabilityMonitor::At(const PathPoint& point) {
 void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
   Count(point, {});
   known_ = true;
-  Write(arc_, ahead);
+  Write(arc_, point.u, ahead);
 }
 
 void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const Eigen::MatrixXd& null_directions,
@@ -45,7 +45,7 @@ void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const 
   else
     Count(point, null_directions);
   known_ = null_directions.cols() == 0;
-  Write(arc_, &at);
+  Write(arc_, point.u, &at);
 }
 
 void StabilityMonitor::NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, Decides decides) {
@@ -58,7 +58,7 @@ void StabilityMonitor::NoteEvent(const PathPoint& leaves, const CurvePoint& ahea
     at.controlled = Worse(arrives.controlled, arc_.controlled);
     at.under_machine = Worse(arrives.under_machine, arc_.under_machine);
   }
-  Write(at, &ahead);
+  Write(at, leaves.u, &ahead);
 }
 
 void StabilityMonitor::Follow(const CurvePoint& at, int falls) {
@@ -91,7 +91,7 @@ double StabilityMonitor::CriticalStiffness(const Verdicts& of, const CurvePoint*
   return -1.0;  // not known
 }
 
-void StabilityMonitor::Write(const Verdicts& of, const CurvePoint* at) {
+void StabilityMonitor::Write(const Verdicts& of, const Eigen::VectorXd& u, const CurvePoint* at) {
   noted_ = of;
   record_.stability = of.dead.verdict;
   record_.stability_controlled = (machine_.IsDead() ? of.controlled : of.under_machine).verdict;
@@ -100,7 +100,7 @@ void StabilityMonitor::Write(const Verdicts& of, const CurvePoint* at) {
   record_.critical_stiffness = stiffness > 0.0 ? stiffness * model_.SizeOfLoads().unit_of_stiffness : stiffness;
   record_.unstable_direction.clear();
   if (of.dead.verdict == Verdict::kUnstable && of.dead.direction.size() > 0)
-    record_.unstable_direction = model_.ComponentsOf(of.dead.direction);
+    record_.unstable_direction = model_.ComponentsOf(u, of.dead.direction);
 }
 
 }  // namespace contact_path

@@ -63,6 +63,17 @@ Eigen::MatrixXd HessianOf(const IncrementProblem& problem, const Eigen::VectorXd
   return lower.selfadjointView<Eigen::Lower>();
 }
 
+// At x, with these multipliers: Jacobian and Hessian are those of what they derive.
+void ExpectDerivatives(const IncrementProblem& problem, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                       double step = kDifferenceStep) {
+  const auto constraints = [&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); };
+  const auto gradient = [&](const Eigen::VectorXd& at) {
+    return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+  };
+  EXPECT_TRUE(IsJacobian(constraints, x, JacobianOf(problem, x), kDerivativeTolerance, step));
+  EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers), kDerivativeTolerance, step));
+}
+
 std::set<std::pair<int, int>> Places(const std::vector<MatrixEntry>& entries) {
   std::set<std::pair<int, int>> places;
   for (const MatrixEntry& entry : entries) places.emplace(entry.row, entry.column);
@@ -180,13 +191,7 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   EXPECT_EQ(problem.NumConstraints(), 8 + 2 * 6 + 5 * 4 + 2);
   for (int i = 0; i < 3; ++i) {
     const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
-    EXPECT_TRUE(
-        IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x, JacobianOf(problem, x)));
-    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
-    const auto gradient = [&](const Eigen::VectorXd& at) {
-      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
-    };
-    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers)));
+    ExpectDerivatives(problem, x, random.Vector(problem.NumConstraints(), -1.0, 1.0));
   }
   // Standing still, with the reactions that are there, is equilibrium at the prescribed components.
   PathPoint still = from;
@@ -217,13 +222,7 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
                                  {0.05, random.Vector(9, -1.0, 1.0).normalized(), 0.3, 1.7});
   for (int i = 0; i < 3; ++i) {
     const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
-    EXPECT_TRUE(IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x,
-                           JacobianOf(problem, x), kDerivativeTolerance, kStep));
-    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
-    const auto gradient = [&](const Eigen::VectorXd& at) {
-      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
-    };
-    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers), kDerivativeTolerance, kStep));
+    ExpectDerivatives(problem, x, random.Vector(problem.NumConstraints(), -1.0, 1.0), kStep);
   }
   // Slip and gaps are those of the point that the variables stand for.
   const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0), values = ConstraintsOf(problem, x);
@@ -251,13 +250,7 @@ TEST(DeformableProblem, DerivativesMeetDifferences) {
                                    {0.3, random.Vector(10, -1.0, 1.0).normalized(), 0.3, 1.7});
     Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
     x.head(9) = random.Vector(9, -0.7, 0.7);
-    EXPECT_TRUE(IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x,
-                           JacobianOf(problem, x), kDerivativeTolerance, kStep));
-    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
-    const auto gradient = [&](const Eigen::VectorXd& at) {
-      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
-    };
-    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers), kDerivativeTolerance, kStep));
+    ExpectDerivatives(problem, x, random.Vector(problem.NumConstraints(), -1.0, 1.0), kStep);
     patches.insert(problem.Point(x).modes[0].piece);
   }
   EXPECT_GT(patches.size(), 1u);
@@ -288,13 +281,7 @@ TEST(CompliantProblem, DerivativesMeetDifferences) {
   for (int i = 0; i < 4; ++i) {
     Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
     x.head(3) = random.Vector(3, -0.7, 0.7);
-    EXPECT_TRUE(
-        IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x, JacobianOf(problem, x)));
-    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
-    const auto gradient = [&](const Eigen::VectorXd& at) {
-      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
-    };
-    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers)));
+    ExpectDerivatives(problem, x, random.Vector(problem.NumConstraints(), -1.0, 1.0));
     // The string is taut where the place says so, whatever its force.
     const PathPoint point = problem.Point(x);
     const bool taut = bar.Motion(0, point.u, point.s, 0, {}) <= 0.0;

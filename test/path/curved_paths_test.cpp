@@ -39,8 +39,7 @@ Obstacle Through(ObstacleShape shape, const std::vector<double>& points, double 
 
 void ExpectProved(const TracedPath& path) {
   ExpectSoundIncrements(path, kSound);
-  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
-    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  ExpectNoFindings(path);
 }
 
 // ----- a node on two springs, dragged round a disc -----

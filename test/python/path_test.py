@@ -140,6 +140,38 @@ class PathTest(ProgramTest):
         with self.assertRaisesRegex(ValueError, '^no quantity flor.y: no node or obstacle flor, there are p, floor; did you mean floor.y.$'):
             with_scene.quantity('flor.y')
 
+    def test_bodies(self):
+        import matplotlib
+        matplotlib.use('Agg')
+        scene = cp.Scene('a lever whose end is round')
+        scene.body('lever', x=0.0, y=0.0, fixed_x=True, fixed_y=True)
+        scene.node('end', x=1.0, y=0.0, body='lever')
+        scene.node('pin', x=2.0, y=0.0, fixed_y=True)
+        scene.node('wall', x=4.0, y=0.0, fixed_x=True, fixed_y=True)
+        scene.bar(['pin', 'wall'], EA=1.0)
+        scene.bar(['end', 'wall'], EA=1.0)
+        scene.obstacle('round', shape='circle', px=1.0, py=0.0, radius=0.9, body='lever')
+        scene.contact(node='pin', obstacle='round')
+        scene.load(body='lever', moment=1.0)
+        path = cp.trace(scene, stop=[{'quantity': 'lever.rotation', 'when': '>', 'value': 0.5}])
+        turn = path['rotation_lever']
+        np.testing.assert_allclose(path['x_end'], np.cos(turn), atol=1e-12)
+        np.testing.assert_allclose(path['y_end'], np.sin(turn), atol=1e-12)
+        structure = Structure(path.scene)
+        # The obstacle goes with the body: in one increment, and along the path.
+        centre = structure.obstacles['round'].point
+        np.testing.assert_allclose(structure.placement('round', path).points(np.tile(centre, (len(path), 1))),
+                                   np.column_stack((np.cos(turn), np.sin(turn))), atol=1e-12)
+        last = Shape(structure, path.increment(len(path) - 1))
+        np.testing.assert_allclose(last.obstacles['round'], (np.cos(turn[-1]), np.sin(turn[-1])), atol=1e-12)
+        # The body is drawn from its nodes to their middle.
+        np.testing.assert_allclose(last.hubs, [(0.5 * np.cos(turn[-1]), 0.5 * np.sin(turn[-1]))], atol=1e-12)
+        figure = path.plot(shapes=True, file=self.path('s.png'))
+        legends = [text.get_text() for legend in figure.findobj(matplotlib.legend.Legend) for text in legend.get_texts()]
+        self.assertIn('body', legends)
+        self.assertNotIn('superelement', legends)
+        path.to_vtk(self.path('vtk'))
+
     def test_bars_that_are_slack(self):
         import matplotlib
         matplotlib.use('Agg')

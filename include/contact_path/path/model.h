@@ -57,8 +57,9 @@ struct Model {
     double unit_of_stiffness = 1.0;
   };
   LoadSize SizeOfLoads() const;
-  // x0, y0, x1, ... over the nodes of a motion of the unknowns, NumDofs() or more entries: 0 where nothing is free.
-  std::vector<double> ComponentsOf(const Eigen::VectorXd& motion) const;
+  // x0, y0, x1, ... over the nodes of a motion of the unknowns from u, both of NumDofs() or more entries: 0 where
+  // nothing moves.
+  std::vector<double> ComponentsOf(const Eigen::VectorXd& u, const Eigen::VectorXd& motion) const;
 
   // Of the bars among the modes of all laws.
   std::vector<BarState> BarStatesIn(const Modes& modes) const;

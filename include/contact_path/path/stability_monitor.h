@@ -49,7 +49,7 @@ class StabilityMonitor {
   void Count(const PathPoint& point, const Eigen::MatrixXd& null_directions);
   // With n0, where no contact slides.
   void Follow(const CurvePoint& at, int falls);
-  void Write(const Verdicts& of, const CurvePoint* at);
+  void Write(const Verdicts& of, const Eigen::VectorXd& u, const CurvePoint* at);
   // k of the machine that just holds the point, scaled.
   double CriticalStiffness(const Verdicts& of, const CurvePoint* at) const;
 

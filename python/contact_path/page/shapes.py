@@ -113,7 +113,7 @@ def moving(points: Points) -> List[Entry]:
     lines(points.one_sided_bars('taut'), line={'color': BARS, 'width': width})
     lines(points.one_sided_bars('slack'), line={'color': BARS, 'width': 0.6 * width, 'dash': 'dot'}, name='slack bar', showlegend=True)
     lines(points.surfaces(), line={'color': SURFACE, 'width': 1.5}, name='surface in contact', showlegend=True)
-    lines(points.hubs(), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name='superelement', showlegend=True)
+    lines(points.hubs(), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name=structure.hubs_are, showlegend=True)
     if not many:
         mode = 'markers+text' if len(structure.names) <= FEW_NODES else 'markers'
         lines(np.flatnonzero(~structure.beams.inner), marker={'size': 4, 'color': BARS}, named=True, mode=mode,

@@ -285,8 +285,8 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
     if any(np.any(shape.slack) for shape in shapes):
         handles.append(Line2D([], [], color=BARS, linewidth=0.9, linestyle=':', label='slack bar'))
     handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
-    if any(structure.superelements for structure in structures):
-        handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label='superelement'))
+    for kinds in dict.fromkeys(structure.hubs_are for structure in structures if structure.superelements):
+        handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label=kinds))
     if view.energy > 0.0:
         for share in (1.0, 0.25):
             handles.append(Patch(facecolor=COLOUR_MAP(math.sqrt(share)), edgecolor=BARS,

@@ -63,9 +63,11 @@ class Structure:
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
                               for part in scene['superelements']]
         self.superelements += [([index[name] for name in nodes], np.array([])) for nodes in further if len(nodes) != 2]
+        bodies = list(dict.fromkeys(node['body'] for node in scene['nodes'] if node['body']))
+        self.hubs_are = ' or '.join([kind for kind, parts in (('superelement', self.superelements), ('body', bodies)) if parts])
         # A body is drawn as the lines from its nodes to their middle.
         self.superelements += [([i for i, node in enumerate(scene['nodes']) if node['body'] == name], np.array([]))
-                               for name in dict.fromkeys(node['body'] for node in scene['nodes'] if node['body'])]
+                               for name in bodies]
         self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
         own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
                'obstacle_motions': scene['obstacle_motions']}
