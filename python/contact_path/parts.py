@@ -25,7 +25,7 @@ Function = TypeVar('Function', bound=Callable[..., Any])
 
 #: Lists of parts of a scene, in the order of scene files. A method of Parts or Loading for each, named by its singular.
 LISTS = ('nodes', 'bars', 'superelements', 'beams', 'materials', 'solids', 'groups', 'surfaces', 'loads', 'obstacles', 'contacts',
-         'supports', 'support_motions', 'obstacle_motions', 'bodies')
+         'supports', 'support_motions', 'obstacle_motions', 'bodies', 'tendons')
 #: Where it is not the list without its last letter.
 SINGULARS = {'bodies': 'body'}
 
@@ -56,7 +56,8 @@ class Loading:
 
     @named
     def load(self, *, node: str = '', group: str = '', surface: str = '', fx: float = 0.0, fy: float = 0.0, moment: float = 0.0,
-             px: float = 0.0, py: float = 0.0, constant: bool = False, body: str = '') -> None:
+             px: float = 0.0, py: float = 0.0, constant: bool = False, body: str = '', bx: float = 0.0, by: float = 0.0,
+             solid: str = '', beam: str = '') -> None:
         """Dead load on a node or on each node of a group: fx, fy [force], moment [force length], counterclockwise.
 
         px, py: traction on the axis of the beam `group`, or on a surface [force/length]. constant: not times the load factor.
@@ -147,7 +148,7 @@ class Parts(Loading):
     @named
     def obstacle(self, name: str, *, shape: str = '', px: float = 0.0, py: float = 0.0, nx: float = 0.0, ny: float = 0.0,
                  friction: float = 0.0, radius: float = 0.0, inside: bool = False, points: Numbers = (), closed: bool = False,
-                 fillet: float = 0.0, body: str = '') -> None:
+                 fillet: float = 0.0, body: str = '', fillets: Numbers = ()) -> None:
         """A rigid obstacle with a friction coefficient [-], the admissible side on the left of its boundary. shape half_plane:
         boundary through px, py [length], normal nx, ny towards the admissible side; circle: centre px, py, radius [length], inside:
         it encloses the structure; polyline with fillets of this radius [length] and spline: points (n, 2), counted from px, py,
@@ -155,10 +156,16 @@ class Parts(Loading):
         self._add('obstacles', locals())
 
     @named
-    def contact(self, *, node: str = '', group: str = '', obstacle: str = '', surface: str = '', friction: float = 0.0) -> None:
+    def contact(self, *, node: str = '', group: str = '', obstacle: str = '', surface: str = '', friction: float = 0.0,
+                obstacles: Texts = ()) -> None:
         """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group.
         friction: coefficient with the surface [-]; an obstacle has its own."""
         self._add('contacts', locals())
+
+    @named
+    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0) -> None:
+        """One of the tendons: EA [force], > 0; rest_length [length], 0 or > 0."""
+        self._add('tendons', locals())
 
     @named
     def body(self, name: str, *, x: float = 0.0, y: float = 0.0, fixed_x: bool = False, fixed_y: bool = False,

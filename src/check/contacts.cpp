@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "check/surfaces.h"
+#include "contact_path/scene/expand.h"
 
 namespace contact_path::check {
 namespace {
@@ -27,6 +28,8 @@ struct MovedObstacle {
   Real turn = 0.0L;  // before that, about a point
   Vector about;
   Real friction = 0.0L;
+  Real radius = 0.0L;      // of a circle that rolls on it, about the node
+  std::size_t circle = 0;  // the body that carries it
   std::optional<std::size_t> body = std::nullopt;  // node; its reference point is `about` at the start
   std::size_t num_nodes = 0;                       // of the scene
 
@@ -36,19 +39,31 @@ struct MovedObstacle {
 class ObstacleContact : public Contact {
  public:
   // slip_origin: of the total law of friction, as the obstacle sees it.
-  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin)
-      : Contact(node, obstacle.friction), obstacle_(std::move(obstacle)), slip_origin_(slip_origin) {}
+  // of_body: a body has the node, which it carries, or the obstacle.
+  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin, bool of_body)
+      : Contact(node, obstacle.friction), obstacle_(std::move(obstacle)), slip_origin_(slip_origin), gives_(of_body) {}
 
-  bool OnBody() const override { return obstacle_.body.has_value(); }
-  bool SurelyOpen(const PlacedState& state) const override { return obstacle_.surface->SurelyOpen(Position(state)); }
-  Real Gap(const PlacedState& state) const override { return obstacle_.surface->Gap(Position(state)); }
+  bool Gives() const override { return gives_; }
+  bool SurelyOpen(const PlacedState& state) const override {
+    return !Rolls() && obstacle_.surface->SurelyOpen(Position(state));
+  }
+  Real Gap(const PlacedState& state) const override {
+    return obstacle_.surface->Gap(Position(state)) - obstacle_.radius;
+  }
   // Where the obstacle is now.
   Vector Normal(const PlacedState& state) const override {
     const Vector normal = obstacle_.surface->Normal(Position(state));
     return !Turns() ? normal : Turned(normal, obstacle_.TurnAt(state));
   }
+  // The point of a circle that touches goes along by its radius times the turn of the circle against the tangent.
   Real Slip(const PlacedState& from, const PlacedState& to) const override {
-    return obstacle_.surface->Slip(Position(from), Position(to));
+    const Vector begin = Position(from), end = Position(to);
+    const Real along = obstacle_.surface->Slip(begin, end);
+    if (!Rolls()) return along;
+    const Vector before = obstacle_.surface->Normal(begin), after = obstacle_.surface->Normal(end);
+    const Real of_tangent = std::atan2(before.x * after.y - before.y * after.x, Dot(before, after));
+    const Real of_circle = to.Rotation(obstacle_.circle) - from.Rotation(obstacle_.circle) - obstacle_.TurnAt(to) + obstacle_.TurnAt(from);
+    return along + obstacle_.radius * (of_circle - of_tangent);
   }
   std::optional<Real> TotalSlip(const PlacedState& state) const override {
     if (!slip_origin_) return std::nullopt;
@@ -56,26 +71,39 @@ class ObstacleContact : public Contact {
   }
   void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
     const Vector normal = Normal(state), tangent{normal.y, -normal.x};
-    const Vector force = factor * (rn * normal + rt * tangent);
+    const Vector force = factor * (rn * normal + rt * SlipPerMotion(state) * tangent);
     AddTo(forces, Node(), force);
+    if (Rolls()) (*forces)[2 * obstacle_.num_nodes + obstacle_.circle] += factor * obstacle_.radius * rt;
     if (!obstacle_.body) return;
     AddTo(forces, *obstacle_.body, -1.0L * force);
     const Vector arm = state.Place(Node()) - state.Place(*obstacle_.body);
-    (*forces)[2 * obstacle_.num_nodes + *obstacle_.body] -= arm.x * force.y - arm.y * force.x;
+    (*forces)[2 * obstacle_.num_nodes + *obstacle_.body] -=
+        arm.x * force.y - arm.y * force.x + factor * obstacle_.radius * rt;
   }
   // The moment as the obstacle sees it.
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
-    const Vector place = Position(state), n = obstacle_.surface->Normal(place), arm = place - obstacle_.point;
+    const Vector place = Position(state), n = obstacle_.surface->Normal(place),
+                 arm = place - obstacle_.radius * n - obstacle_.point;
     const Vector seen{rn * n.x + rt * n.y, rn * n.y - rt * n.x};
     return {!Turns() ? seen : Turned(seen, obstacle_.TurnAt(state)), arm.x * seen.y - arm.y * seen.x};
   }
   Vector Velocity(const PlacedState& state) const override {
     if (obstacle_.turn == 0.0L) return obstacle_.motion;
-    const Vector arm = state.Place(Node()) - obstacle_.about - state.LoadFactor() * obstacle_.motion;
+    const Vector arm = state.Place(Node()) - obstacle_.radius * Normal(state) - obstacle_.about -
+                       state.LoadFactor() * obstacle_.motion;
     return obstacle_.motion + obstacle_.turn * Vector{-arm.y, arm.x};
   }
 
  private:
+  // Along t, where contacts give way, over that where the gap is closed: what rt does work along is slip.
+  Real SlipPerMotion(const PlacedState& state) const {
+    const Real gap = Gap(state), step = kFar * gap;
+    if (!gives_ || gap == 0.0L) return 1.0L;
+    const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
+    const Vector along{step * n.y, -step * n.x};
+    return obstacle_.surface->Slip(at, at + along) / obstacle_.surface->Slip(closed, closed + along);
+  }
+  bool Rolls() const { return obstacle_.radius > 0.0L; }
   bool Turns() const { return obstacle_.body || obstacle_.turn != 0.0L; }
   // The node as the obstacle sees it.
   Vector Position(const PlacedState& state) const {
@@ -86,8 +114,11 @@ class ObstacleContact : public Contact {
     return obstacle_.about + Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
   }
 
+  static constexpr Real kFar = 1e3L;  // in gaps
+
   MovedObstacle obstacle_;
   std::optional<Vector> slip_origin_;
+  bool gives_;
 };
 
 class BoundaryContact : public Contact {
@@ -213,6 +244,8 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
 std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& slip_origins) {
   std::unordered_map<std::string_view, MovedObstacle> obstacles;
+  std::unordered_map<std::string_view, const Obstacle*> circles;
+  for (const Obstacle& obstacle : scene.obstacles) circles.emplace(obstacle.name, &obstacle);
   for (const Obstacle& obstacle : scene.obstacles)
     obstacles.emplace(
         obstacle.name,
@@ -221,7 +254,6 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     if (!obstacle.body.empty()) {
       MovedObstacle& carried = obstacles.at(obstacle.name);
       carried.body = numbers.at(obstacle.body);
-      carried.num_nodes = scene.nodes.size();
       carried.about = {scene.nodes[*carried.body].x, scene.nodes[*carried.body].y};
     }
   for (const ObstacleMotion& motion : scene.obstacle_motions) {
@@ -247,7 +279,16 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     std::optional<Vector> origin;
     if (const std::size_t k = 2 * contacts.size(); !slip_origins.empty())
       origin = Vector{slip_origins.at(k), slip_origins.at(k + 1)};
-    contacts.push_back(std::make_unique<ObstacleContact>(node, obstacle->second, origin));
+    MovedObstacle partner = obstacle->second;
+    if (contact.friction > 0.0) partner.friction = contact.friction;
+    if (!contact.obstacles.empty()) {
+      const Obstacle& circle = *circles.at(contact.obstacles.front());
+      partner.radius = circle.radius;
+      partner.circle = numbers.at(circle.body);
+    }
+    partner.num_nodes = scene.nodes.size();
+    const bool of_body = !contact.obstacles.empty() || partner.body.has_value() || IsAttached(scene.nodes[node]);
+    contacts.push_back(std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body));
   }
   return contacts;
 }

@@ -43,8 +43,8 @@ class Contact {
 
   std::size_t Node() const { return node_; }
   Real Friction() const { return friction_; }
-  // Whether a body carries the obstacle.
-  virtual bool OnBody() const { return false; }
+  // Whether it gives way, being one of a body.
+  virtual bool Gives() const { return false; }
   // By its place in the scene; nothing of an obstacle.
   virtual std::optional<std::size_t> TouchedSurface() const { return std::nullopt; }
 

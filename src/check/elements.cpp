@@ -92,6 +92,45 @@ class BarElement : public Element {
   BarSense sense_;
 };
 
+// W = EA (l - l0)^2 / (2 l0), l the length along the nodes, where it is > l0.
+class TendonElement : public Element {
+ public:
+  TendonElement(const Tendon& tendon, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
+      : Element(Kind::kTendon, nodes), EA_(tendon.EA), rest_(tendon.rest_length) {
+    if (tendon.rest_length == 0.0) rest_ = LengthIn(reference);
+  }
+
+  std::optional<Real> Tension(const std::vector<double>& positions) const override {
+    return EA_ * std::max<Real>(LengthIn(positions) / rest_ - 1.0L, 0.0L);
+  }
+  Real Stiffness() const override { return 4.0L * EA_ / rest_; }
+
+  void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
+    const Real tension = *Tension(positions);
+    *energy += 0.5L * rest_ * tension * tension / EA_;
+  }
+
+  void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
+    const Real tension = *Tension(positions);
+    for (std::size_t i = 1; i < Nodes().size() && tension > 0.0L; ++i) {
+      const Vector span = Span(positions, i);
+      AddTo(forces, Nodes()[i - 1], -tension / Length(span) * span);
+      AddTo(forces, Nodes()[i], tension / Length(span) * span);
+    }
+  }
+
+ private:
+  Vector Span(const std::vector<double>& positions, std::size_t i) const {
+    return NodePosition(positions, Nodes()[i]) - NodePosition(positions, Nodes()[i - 1]);
+  }
+  Real LengthIn(const std::vector<double>& positions) const {
+    Real sum = 0.0L;
+    for (std::size_t i = 1; i < Nodes().size(); ++i) sum += Length(Span(positions, i));
+    return sum;
+  }
+  Real EA_, rest_;
+};
+
 // W = (x - X)' K (x - X) / 2.
 class LinearPart : public Element {
  public:
@@ -238,6 +277,11 @@ using NodeList = std::vector<std::size_t>;
 void Place(const Bar& bar, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
            Elements* elements) {
   elements->push_back(std::make_unique<BarElement>(bar, nodes, reference));
+}
+
+void Place(const Tendon& tendon, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
+           Elements* elements) {
+  elements->push_back(std::make_unique<TendonElement>(tendon, nodes, reference));
 }
 
 void Place(const Superelement& part, const Scene&, const NodeList& nodes, const std::vector<double>& reference,

@@ -34,13 +34,15 @@ class Element {
  public:
   virtual ~Element() = default;
 
-  enum class Kind { kBar, kSegment, kLinearPart, kSolid };
+  enum class Kind { kBar, kSegment, kLinearPart, kSolid, kTendon };
   Kind GetKind() const { return kind_; }
   const std::vector<std::size_t>& Nodes() const { return nodes_; }
   // Whether the directions of its forces turn with the motion.
   virtual bool Turns() const { return true; }
   // Of an element of a solid; nothing of another one.
   virtual std::optional<MeanStress> Stress(const std::vector<double>&) const { return std::nullopt; }
+  // Of a tendon [force]; nothing of another element.
+  virtual std::optional<Real> Tension(const std::vector<double>&) const { return std::nullopt; }
   // At least the largest force per motion that it exerts at the start [force/length].
   virtual Real Stiffness() const = 0;
   // Adds the strain energy W to *energy [force length].

@@ -106,8 +106,6 @@ struct ResidualCheck::Prepared {
     num_touched = touched.size();
     touched_by = BoundaryOfContacts(scene, touched);
     contacts = check::MakeContacts(scene, index, configuration.slip_origins);
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-      gives.push_back(IsAttached(scene.nodes[contacts[i]->Node()]) || contacts[i]->OnBody());
     std::vector<check::ContactPlace> places;
     for (std::size_t i = 0; i < contacts.size(); ++i) places.push_back({contacts[i]->Node(), touched_by[i]});
     contact_edges = check::ContactEdges(elements, places);
@@ -177,7 +175,6 @@ struct ResidualCheck::Prepared {
   std::vector<PreparedLoad> loads;
   std::vector<std::unique_ptr<const check::Contact>> contacts;
   std::vector<Real> contact_units;
-  std::vector<bool> gives;  // by contact: of a body
   std::vector<SupportedNode> supports;
   std::vector<std::size_t> touched_by;  // by contact: which of TouchedBoundaries()
   std::size_t num_touched = 0;
@@ -241,7 +238,7 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const check::Contact& contact = *scene.contacts[i];
     const bool without_reaction = now.rn[i] == 0.0 && now.rt[i] == 0.0;
     if (without_reaction && contact.SurelyOpen(to)) continue;
-    const Real give = scene.gives[i] ? kGive / scaling.force : 0.0L;
+    const Real give = contact.Gives() ? kGive / scaling.force : 0.0L;
     const Real gap = contact.Gap(to) / scaling.length + give * now.rn[i];
     if (without_reaction) {  // then only a gap that is closed too far breaks a rule
       residuals.penetration = Worst(residuals.penetration, -gap);
@@ -346,7 +343,7 @@ double ResidualCheck::GapPastEnd(std::size_t contact, const CheckedState& state)
 
 double ResidualCheck::Give(std::size_t contact) const {
   const Scaling& scaling = prepared_->scaling;
-  return prepared_->gives[contact] ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
+  return prepared_->contacts[contact]->Gives() ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
 }
 
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {

@@ -154,16 +154,19 @@ class Polyline : public Walk {
       turns[i] = std::atan2(Cross(before, after), Dot(before, after));
       cuts[i] = std::abs(turns[i]) > kInLine ? std::tan(0.5L * std::abs(turns[i])) : 0.0L;
     }
-    Real radius = obstacle.fillet;
-    if (!(radius > 0.0L)) {
-      radius = std::numeric_limits<Real>::infinity();
+    std::vector<Real> radii(n, obstacle.fillet);
+    if (!obstacle.fillets.empty()) radii.assign(obstacle.fillets.begin(), obstacle.fillets.end());
+    if (std::any_of(radii.begin(), radii.end(), [](Real radius) { return !(radius > 0.0L); })) {
+      Real radius = std::numeric_limits<Real>::infinity();
       for (std::size_t i = 0; i < edges; ++i)
         if (const Real both = cuts[i] + cuts[(i + 1) % n]; both > 0.0L) radius = std::min(radius, lengths[i] / both);
       radius = std::isfinite(radius) ? kDefaultShare * radius : 1.0L;
+      for (Real& of : radii)
+        if (!(of > 0.0L)) of = radius;
     }
     for (std::size_t i = 0; i < edges; ++i) {
       const std::size_t corner = (i + 1) % n;
-      const Real from = radius * cuts[i], to = lengths[i] - radius * cuts[corner];
+      const Real radius = radii[corner], from = radii[i] * cuts[i], to = lengths[i] - radius * cuts[corner];
       pieces_.push_back({corners[i] + from * directions[i], directions[i], 0.0L, std::max(to - from, 0.0L)});
       if (cuts[corner] == 0.0L) continue;
       pieces_.push_back({corners[i] + to * directions[i], directions[i], std::copysign(1.0L / radius, turns[corner]),

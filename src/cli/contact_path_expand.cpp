@@ -46,7 +46,7 @@ Json Expanded(const TraceRequest& given) {
   for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
     boundaries.push_back({{"name", boundary.name}, {"is_surface", boundary.is_surface}});
   for (const ContactCandidate& contact : scene.contacts) contacts.push_back(contact.Name());
-  for (const std::size_t i : OneSidedBars(scene)) bars.push_back(BarName(scene.bars[i], i));
+  for (const OneSidedBar& bar : OneSidedBars(scene)) bars.push_back(bar.name);
   const Scaling scales = ProgramScales(request);
   object["scales"] = {{"length", scales.length}, {"force", scales.force}};
   const ElementNames names(scene);

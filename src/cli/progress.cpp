@@ -100,7 +100,7 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
        << (increment.event.complete ? "" : "; not all combinations of states were tried") << '\n'
        << std::setprecision(4);
   if (increment.event.branches.empty()) text << "  no branch was found\n";
-  const std::vector<std::size_t> bars = OneSidedBars(request.scene);
+  const std::vector<OneSidedBar> bars = OneSidedBars(request.scene);
   for (std::size_t i = 0; i < increment.event.branches.size(); ++i) {
     const BranchRecord& branch = increment.event.branches[i];
     const bool taken = static_cast<int>(i) + 1 == increment.event.taken;
@@ -115,7 +115,7 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
     for (std::size_t k = 0; k < branch.states.size(); ++k)
       list(request.scene.contacts[k].Name(), increment.contacts[k].state, branch.states[k]);
     for (std::size_t k = 0; k < branch.bars.size(); ++k)
-      list(BarName(request.scene.bars[bars[k]], bars[k]), increment.bars[k], branch.bars[k]);
+      list(bars[k].name, increment.bars[k], branch.bars[k]);
     if (const std::size_t same = branch.states.size() + branch.bars.size() - changes; same > 0)
       text << "; " << same << " unchanged";
     text << '\n';

@@ -37,7 +37,7 @@ TraceLog::TraceLog(const TraceRequest& request, std::ostream* out)
   Json nodes = Json::array(), contacts = Json::array(), bars = Json::array();
   for (const Node& node : request.scene.nodes) nodes.push_back(node.name);
   for (const ContactCandidate& contact : request.scene.contacts) contacts.push_back(contact.Name());
-  for (const std::size_t i : OneSidedBars(request.scene)) bars.push_back(BarName(request.scene.bars[i], i));
+  for (const OneSidedBar& bar : OneSidedBars(request.scene)) bars.push_back(bar.name);
   header["nodes"] = std::move(nodes);
   header["contacts"] = std::move(contacts);
   header["bars"] = std::move(bars);

@@ -13,7 +13,7 @@ namespace contact_path {
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
                      const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin,
-                     double compliance)
+                     double compliance, const Rolling& rolls)
     : surface_(std::move(surface)), place_(std::move(place)) {
   Traits traits;
   SurfaceTraits of_surface;
@@ -28,13 +28,18 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
   if (slip_origin)
     of_surface.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
   traits.dofs = place_.Dofs();
-  traits.couples = !place_.Affine() && traits.dofs.size() > 2;  // unknowns of a body
+  traits.couples = rolls.radius > 0.0 || (!place_.Affine() && traits.dofs.size() > 2);  // unknowns of a body
   const auto last = static_cast<Eigen::Index>(traits.dofs.size());
+  roll_ = LawVector::Zero(last + 1);
+  for (const auto& [angle, radius] : {std::pair(rolls.angle, rolls.radius), std::pair(rolls.obstacle, -rolls.radius)})
+    roll_[std::find(traits.dofs.begin(), traits.dofs.end(), angle.dof) - traits.dofs.begin()] +=
+        angle.dof >= 0 ? radius : radius * angle.rate;
   if (traits.curved) {
     // The foot moves along the surface, where both components of the node have a share in gap and xi.
-    for (Eigen::Index i = 0; i <= last; ++i)
-      traits.moves[kNormal][static_cast<std::size_t>(i)] = traits.moves[kTangent][static_cast<std::size_t>(i)] =
-          place_.Moves(i);
+    for (Eigen::Index i = 0; i <= last; ++i) {
+      traits.moves[kNormal][static_cast<std::size_t>(i)] = place_.Moves(i);
+      traits.moves[kTangent][static_cast<std::size_t>(i)] = place_.Moves(i) || roll_[i] != 0.0;
+    }
     // In a frame that turns: the farther from its origin, the faster.
     traits.largest_reach_rate =
         place_.Affine() ? 1.0 + place_.ConstantGradient().col(last).norm() : std::numeric_limits<double>::infinity();
@@ -46,7 +51,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
     gap_offset_ = n.x() * held.x() + n.y() * held.y() + at_origin.gap;
     xi_offset_ = t.x() * held.x() + t.y() * held.y() + at_origin.xi;
     gap_gradient_ = place_.ConstantGradient().transpose() * n;
-    xi_gradient_ = place_.ConstantGradient().transpose() * t;
+    xi_gradient_ = place_.ConstantGradient().transpose() * t + roll_;
     for (Eigen::Index i = 0; i <= last; ++i) {
       traits.moves[kNormal][static_cast<std::size_t>(i)] = gap_gradient_[i] != 0.0;
       traits.moves[kTangent][static_cast<std::size_t>(i)] = xi_gradient_[i] != 0.0;
@@ -88,9 +93,9 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const Po
   const PlaceAt place(place_, u, s);
   const Projection at = surface_->Project(place.x, NearestKnown(KnownPatch(u, s, patch)));
   gap.motion = at.gap;
-  xi.motion = at.xi - reference[kTangent];
+  xi.motion = at.xi - reference[kTangent] + ports->Rate(roll_, u, s);
   gap.gradient = place.first.transpose() * at.normal;
-  xi.gradient = place.first.transpose() * XiGradient(at);
+  xi.gradient = place.first.transpose() * XiGradient(at) + roll_;
   gap.hessian = place.Hessian(at.normal, GapHessian(at));
   xi.hessian = place.Hessian(XiGradient(at), XiHessian(at));
 }

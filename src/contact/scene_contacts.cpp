@@ -12,6 +12,7 @@
 #include "contact_path/contact/deformable_pair.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/scene/boundary_curve.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/surface.h"
 #include "contact_path/tolerances.h"
 
@@ -97,17 +98,25 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     const std::size_t at = index.Obstacle(candidate.obstacle);
     const Obstacle& obstacle = scene.obstacles[at];
     const MovingFrame& frame = obstacles[at].frame;
-    const FixedPoint point = structure.PointOf(node);
-    const bool of_body = structure.AttachmentOf(node) != nullptr || !obstacle.body.empty();
+    const bool is_body = IsBody(scene.nodes[static_cast<std::size_t>(node)]);
+    const FixedPoint point = is_body ? FixedPoint{structure.FrameOfBody(node)} : structure.PointOf(node);
+    const Obstacle* const circle = RollingCircle(candidate, scene);
+    const bool of_body = circle != nullptr || structure.AttachmentOf(node) != nullptr || !obstacle.body.empty();
     const bool turns = of_body || point.frame.angle.dof >= 0;
     const bool can_slide = CanSlide(turns || point.frame.origin[0].dof >= 0, turns || point.frame.origin[1].dof >= 0,
                                     obstacle, frame.angle.rate != 0.0);
     std::optional<Eigen::Vector2d> slip_origin;
     if (const std::size_t k = 2 * contacts.size(); can_slide && !slip_origins.empty())
       slip_origin = Eigen::Vector2d(slip_origins[k], slip_origins[k + 1]);
-    contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, MovingPlace::SeenFrom(frame, point),
-                                                   can_slide ? obstacle.friction : 0.0, force_bounds, slip_origin,
-                                                   of_body ? tolerances::kRootOfRounding : 0.0));
+    Rolling rolls;
+    std::shared_ptr<const Surface> surface = obstacles[at].surface;
+    if (circle != nullptr) {
+      rolls = {circle->radius, point.frame.angle, frame.angle};
+      surface = MakeSurface(WhereCentresMove(obstacle, circle->radius));
+    }
+    contacts.push_back(std::make_unique<RigidPair>(
+        std::move(surface), MovingPlace::SeenFrom(frame, point), can_slide ? candidate.FrictionWith(obstacle) : 0.0,
+        force_bounds, slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls));
   }
   return contacts;
 }

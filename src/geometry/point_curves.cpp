@@ -140,14 +140,25 @@ double LargestFillet(const PlanePoints& points, bool closed) {
   return largest;
 }
 
-std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, double fillet) {
+std::optional<std::size_t> TooShort(const PlanePoints& points, bool closed, const std::vector<double>& fillets,
+                                    double rounding) {
+  const Edges edges(points, closed);
+  for (std::size_t i = 0; i < edges.lengths.size(); ++i) {
+    const std::size_t corner = edges.EndCorner(i, closed);
+    const double cut = fillets[i] * edges.Share(i) + fillets[corner] * edges.Share(corner);
+    if (cut > (1.0 + rounding) * edges.lengths[i]) return i;
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, const std::vector<double>& fillets) {
   const Edges edges(points, closed);
   std::vector<std::unique_ptr<const CurvePiece>> pieces;
   const std::size_t count = edges.lengths.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Vector2d& direction = edges.directions[i];
     const std::size_t corner = edges.EndCorner(i, closed);
-    const double from = fillet * edges.Share(i), cut = fillet * edges.Share(corner);
+    const double fillet = fillets[corner], from = fillets[i] * edges.Share(i), cut = fillet * edges.Share(corner);
     const double length = edges.lengths[i] - from - cut;
     if (length > tolerances::kRounding * edges.lengths[i])
       pieces.push_back(std::make_unique<LinePiece>(points[i] + from * direction, direction, length));

@@ -2,16 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
+#include "scene/input_bounds.h"
 
 namespace contact_path {
 namespace {
 
+static_assert(kMostTendonUnknowns == kMostLawDofs);
+
 enum Limits { kForce, kSlackness };
+
+// The entries of a vector by (dofs, s) that belong to some of them.
+LawVector Gathered(const LawVector& vector, const LawDofs& from, const LawDofs& to) {
+  LawVector own(static_cast<Eigen::Index>(to.size()) + 1);
+  for (std::size_t k = 0; k < to.size(); ++k)
+    own[static_cast<Eigen::Index>(k)] = vector[std::find(from.begin(), from.end(), to[k]) - from.begin()];
+  own[own.size() - 1] = vector[vector.size() - 1];
+  return own;
+}
 
 constexpr int kTaut = NumberOf(BarState::kTaut), kSlack = NumberOf(BarState::kSlack);
 
@@ -19,21 +33,31 @@ constexpr int kTaut = NumberOf(BarState::kTaut), kSlack = NumberOf(BarState::kSl
 
 std::string_view ToString(BarState state) { return state == BarState::kTaut ? "taut" : "slack"; }
 
-SlackBar::SlackBar(MovingPlace span, double EA, double rest_length, StrainMeasure strain, BarSense sense)
-    : span_(std::move(span)),
+SlackBar::SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length, StrainMeasure strain, BarSense sense)
+    : spans_(std::move(spans)),
       rest_length_(rest_length),
       compliance_(rest_length / EA),
       sense_(sense == BarSense::kTension ? 1.0 : -1.0),
       strain_(strain) {
   Traits traits;
-  traits.dofs = span_.Dofs();
-  for (std::size_t k = 0; k <= traits.dofs.size(); ++k) traits.moves[0][k] = span_.Moves(static_cast<Eigen::Index>(k));
+  std::set<int> dofs;
+  for (const MovingPlace& span : spans_) dofs.insert(span.Dofs().begin(), span.Dofs().end());
+  for (const int dof : dofs) traits.dofs.push_back(dof);
+  bool affine = true;
+  for (const MovingPlace& span : spans_) {
+    affine = affine && span.Affine();
+    for (std::size_t k = 0; k <= span.Dofs().size(); ++k)
+      if (span.Moves(static_cast<Eigen::Index>(k)))
+        traits.moves[0][k == span.Dofs().size()
+                            ? dofs.size()
+                            : static_cast<std::size_t>(std::distance(dofs.begin(), dofs.find(span.Dofs()[k])))] = true;
+  }
   traits.couples = traits.compliant = traits.elastic = traits.curved = true;
   traits.force_unit = ForceUnitAbove(EA);
   // While the bar is slack: l0 de/dl is l / l0, 1 or l0 / l, and both ends move.
-  const bool bounded = span_.Affine() && (strain == StrainMeasure::kBiot ||
+  const bool bounded = affine && (strain == StrainMeasure::kBiot ||
                                           (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension));
-  traits.largest_reach_rate = bounded ? std::sqrt(2.0) : std::numeric_limits<double>::infinity();
+  traits.largest_reach_rate = bounded ? std::sqrt(2.0) * static_cast<double>(spans_.size()) : std::numeric_limits<double>::infinity();
   std::vector<StateRule> states(2);
   states[kTaut].ports[0] = {PortRule::Kind::kHeld, 0.0, compliance_};
   LimitRule bears;
@@ -67,31 +91,45 @@ SlackBar::Strain SlackBar::StrainAt(double q) const {
 
 void SlackBar::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& /*reference*/,
                         PortsAt* ports) const {
-  const PlaceAt span(span_, u, s);
-  const Eigen::Vector2d& d = span.x;
-  const Strain e = StrainAt(d.squaredNorm());
   const double scale = -sense_ * rest_length_;
   ports->dofs = OwnDofs();
   PortAt& port = (*ports)[0];
-  port.motion = scale * e.value;
-  const Eigen::Vector2d gradient = 2.0 * scale * e.first * d;
-  port.gradient = span.first.transpose() * gradient;
-  port.hessian = span.Hessian(
-      gradient, scale * (2.0 * e.first * Eigen::Matrix2d::Identity() + 4.0 * e.second * d * d.transpose()));
+  const auto size = static_cast<Eigen::Index>(OwnDofs().size()) + 1;
+  port.gradient = LawVector::Zero(size);
+  port.hessian = LawMatrix::Zero(size, size);
+  double strain = static_cast<double>(spans_.size() - 1);  // l / l0 of each span less 1
+  for (const MovingPlace& of : spans_) {
+    const PlaceAt span(of, u, s);
+    const Eigen::Vector2d& d = span.x;
+    const Strain e = StrainAt(d.squaredNorm());
+    strain += e.value;
+    const Eigen::Vector2d gradient = 2.0 * scale * e.first * d;
+    port.gradient += Spread(LawVector(span.first.transpose() * gradient), of.Dofs(), OwnDofs());
+    port.hessian += Spread(span.Hessian(gradient, scale * (2.0 * e.first * Eigen::Matrix2d::Identity() +
+                                                           4.0 * e.second * d * d.transpose())),
+                           of.Dofs(), OwnDofs());
+  }
+  port.motion = scale * strain;
 }
 
 void SlackBar::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
                             const LawVector& weights, LawMatrix* hessian) const {
-  const PlaceAt span(span_, u, s);
-  const Eigen::Vector2d& d = span.x;
-  const Eigen::Vector2d v = span.first * weights;
-  const Strain e = StrainAt(d.squaredNorm());
-  const double along = d.dot(v), scale = -forces[0] * sense_ * rest_length_;
-  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
-  const Eigen::Matrix2d change = scale * (4.0 * e.second * (along * unit + v * d.transpose() + d * v.transpose()) +
-                                          8.0 * e.third * along * d * d.transpose());
-  *hessian = span.HessianChange(2.0 * scale * e.first * d,
-                                scale * (2.0 * e.first * unit + 4.0 * e.second * d * d.transpose()), change, weights);
+  *hessian = LawMatrix::Zero(weights.size(), weights.size());
+  for (const MovingPlace& of : spans_) {
+    const PlaceAt span(of, u, s);
+    const LawVector own = Gathered(weights, OwnDofs(), of.Dofs());
+    const Eigen::Vector2d& d = span.x;
+    const Eigen::Vector2d v = span.first * own;
+    const Strain e = StrainAt(d.squaredNorm());
+    const double along = d.dot(v), scale = -forces[0] * sense_ * rest_length_;
+    const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d change = scale * (4.0 * e.second * (along * unit + v * d.transpose() + d * v.transpose()) +
+                                            8.0 * e.third * along * d * d.transpose());
+    *hessian += Spread(
+        span.HessianChange(2.0 * scale * e.first * d,
+                           scale * (2.0 * e.first * unit + 4.0 * e.second * d * d.transpose()), change, own),
+        of.Dofs(), OwnDofs());
+  }
 }
 
 Modes SlackBar::ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
@@ -111,15 +149,20 @@ std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, 
                                                             const Structure& structure,
                                                             const std::vector<double>& reference) {
   std::vector<std::unique_ptr<const SlackBar>> bars;
-  for (const std::size_t i : OneSidedBars(scene)) {
-    const Bar& bar = scene.bars[i];
-    const std::size_t first = index.Node(bar.nodes[0]), second = index.Node(bar.nodes[1]);
-    const Eigen::Vector2d start(reference[2 * second] - reference[2 * first],
-                                reference[2 * second + 1] - reference[2 * first + 1]);
-    const double rest_length = bar.rest_length > 0.0 ? bar.rest_length : start.norm();
-    bars.push_back(std::make_unique<const SlackBar>(
-        MovingPlace::Between(structure.PointOf(static_cast<int>(first)), structure.PointOf(static_cast<int>(second))),
-        bar.EA, rest_length, bar.strain, bar.sense));
+  for (const OneSidedBar& bar : OneSidedBars(scene)) {
+    std::vector<MovingPlace> spans;
+    double length = 0.0;
+    for (std::size_t k = 1; k < bar.nodes->size(); ++k) {
+      const std::size_t first = index.Node((*bar.nodes)[k - 1]), second = index.Node((*bar.nodes)[k]);
+      length += Eigen::Vector2d(reference[2 * second] - reference[2 * first],
+                                reference[2 * second + 1] - reference[2 * first + 1])
+                    .norm();
+      spans.push_back(MovingPlace::Between(structure.PointOf(static_cast<int>(first)),
+                                           structure.PointOf(static_cast<int>(second))));
+    }
+    bars.push_back(std::make_unique<const SlackBar>(std::move(spans), bar.EA,
+                                                    bar.rest_length > 0.0 ? bar.rest_length : length, bar.strain,
+                                                    bar.sense));
   }
   return bars;
 }

@@ -56,9 +56,9 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
     add_fields(&Increment::contacts, i, scene.contacts[i].Name(), AllFields);
-  const std::vector<std::size_t> bars = OneSidedBars(scene);
+  const std::vector<OneSidedBar> bars = OneSidedBars(scene);
   for (std::size_t k = 0; k < bars.size(); ++k)
-    add("state_" + BarName(scene.bars[bars[k]], bars[k]), [k](const Increment& of) { return ToString(of.bars[k]); });
+    add("state_" + bars[k].name, [k](const Increment& of) { return ToString(of.bars[k]); });
   add_place(Place::kBehindContacts);
   if (!expanded.Get().program.empty()) add_place(Place::kOfProgram);
   const SceneIndex index(scene);
@@ -78,7 +78,7 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
   const ElementNames& elements = index.Elements();
   for (std::size_t i = 0; options.Records("sections") && i < elements.NumSections(); ++i)
     add_fields(&Increment::sections, i, elements.SectionName(i),
-               [is_bar = elements.IsBar(i)](std::string_view force) { return force == "N" || !is_bar; });
+               [only = elements.HasOnlyN(i)](std::string_view force) { return force == "N" || !only; });
   for (std::size_t i = 0; options.Records("stresses") && i < elements.NumElements(); ++i)
     add_fields(&Increment::stresses, i, elements.ElementName(i), AllFields);
   if (!options.Records("pressures")) return;

@@ -274,10 +274,8 @@ Cause SlidesOffCause(const Model& model, const Limit& limit) {
 
 Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, double tolerance) {
   const auto i = static_cast<std::size_t>(limit.law);
-  if (i >= model.contacts.size()) {
-    const std::size_t bar = OneSidedBars(model.scene)[i - model.contacts.size()];
-    return {sentences::kBarRateSign, BarName(model.scene.bars[bar], bar), rate, tolerance};
-  }
+  if (i >= model.contacts.size())
+    return {sentences::kBarRateSign, OneSidedBars(model.scene)[i - model.contacts.size()].name, rate, tolerance};
   return {SignOfRate(static_cast<ContactLimit>(limit.id)), model.scene.contacts[i].Name(), rate, tolerance};
 }
 

@@ -1,5 +1,6 @@
 #include "contact_path/response/element_response.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -31,6 +32,10 @@ SectionForces SectionOf(const Element& element, const Eigen::VectorXd& x) {
       if (is_end) on_end[local.component] = force[i];
     }
     ++i;
+  }
+  if (element.Dofs().back().node > 1) {  // a tendon: the same all along
+    section.N = force.head<2>().norm();
+    return section;
   }
   const Eigen::Vector2d chord = end - begin;
   if (const double length = chord.norm(); length > 0.0) {
@@ -69,7 +74,9 @@ std::vector<SectionForces> ElementResponse::Sections(const Eigen::VectorXd& valu
   sections.reserve(sections_.size());
   for (const auto& placed : sections_) {
     const SectionForces of = SectionOf(*placed.element, ValuesOf(placed, values));
-    sections.push_back({force * of.N, force * of.Q, moment * of.M, moment * of.M1, moment * of.M2});
+    const std::size_t pieces = static_cast<std::size_t>(std::max(placed.element->Dofs().back().node, 1));
+    sections.insert(sections.end(), pieces,
+                    {force * of.N, force * of.Q, moment * of.M, moment * of.M1, moment * of.M2});
   }
   return sections;
 }

@@ -6,6 +6,7 @@
 
 #include "contact_path/contact/scene_contacts.h"
 #include "contact_path/law/ports.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/structure/scene_elements.h"
 
 namespace contact_path {
@@ -32,7 +33,11 @@ ReactionProblem::ReactionProblem(const Scene& scaled, const SceneIndex& index, c
       supports_(SupportedNodes(scaled)),
       boundaries_(TouchedBoundaries(scaled)),
       boundary_of_(BoundaryOfContacts(scaled, boundaries_)) {
-  for (const ContactCandidate& contact : scaled.contacts) nodes_.push_back(index.Node(contact.node));
+  for (const ContactCandidate& contact : scaled.contacts) {
+    nodes_.push_back(index.Node(contact.node));
+    const Obstacle* const circle = RollingCircle(contact, scaled);
+    radii_.push_back(circle == nullptr ? 0.0 : circle->radius);
+  }
   for (const Obstacle& obstacle : scaled.obstacles) points_.emplace_back().at = {obstacle.px, obstacle.py};
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (const std::string& body = scaled.obstacles[i].body; !body.empty()) {
@@ -84,7 +89,8 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
     sum.rx += scaling_.force * on_node.x();
     sum.ry += scaling_.force * on_node.y();
     sum.rm += scaling_.force * scaling_.length *
-              Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node);
+              (Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node) +
+               radii_[i] * rt);
   }
   for (const SupportedNode& support : supports_) {
     const auto number = static_cast<int>(support.node);

@@ -13,57 +13,73 @@ constexpr double kCorners[4][2] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0,
 constexpr CellGradients kLinearTriangle = {{{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}}};
 
 // N = L (2 L - 1) at a corner with the area coordinate L, 4 L M between two corners.
-CellGradients QuadraticTriangle(double xi, double eta) {
+CellPoint QuadraticTriangle(double xi, double eta) {
   const std::array<double, 3> area = {1.0 - xi - eta, xi, eta};
-  CellGradients gradients{};
+  CellPoint point;
+  auto& [weight, values, gradients] = point;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t next = (i + 1) % 3;
+    values[i] = area[i] * (2.0 * area[i] - 1.0);
+    values[3 + i] = 4.0 * area[i] * area[next];
     for (std::size_t k = 0; k < 2; ++k) {
       gradients[i][k] = (4.0 * area[i] - 1.0) * kLinearTriangle[i][k];
       gradients[3 + i][k] = 4.0 * (area[next] * kLinearTriangle[i][k] + area[i] * kLinearTriangle[next][k]);
     }
   }
-  return gradients;
+  return point;
 }
 
 // N = (1 + a xi) (1 + b eta) / 4 at the corner (a, b).
-CellGradients BilinearSquare(double xi, double eta) {
-  CellGradients gradients{};
+CellPoint BilinearSquare(double xi, double eta) {
+  CellPoint point;
   for (std::size_t i = 0; i < 4; ++i) {
     const double a = kCorners[i][0], b = kCorners[i][1];
-    gradients[i] = {0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)};
+    point.values[i] = 0.25 * (1.0 + a * xi) * (1.0 + b * eta);
+    point.gradients[i] = {0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)};
   }
-  return gradients;
+  return point;
 }
 
 // N = (1 + a xi) (1 + b eta) (a xi + b eta - 1) / 4 at the corner (a, b), (1 - xi^2) (1 + b eta) / 2 and
 // (1 + a xi) (1 - eta^2) / 2 between two corners.
-CellGradients SerendipitySquare(double xi, double eta) {
-  CellGradients gradients{};
+CellPoint SerendipitySquare(double xi, double eta) {
+  CellPoint point;
+  auto& [weight, values, gradients] = point;
   for (std::size_t i = 0; i < 4; ++i) {
     const double a = kCorners[i][0], b = kCorners[i][1];
+    values[i] = 0.25 * (1.0 + a * xi) * (1.0 + b * eta) * (a * xi + b * eta - 1.0);
     gradients[i] = {0.25 * a * (1.0 + b * eta) * (2.0 * a * xi + b * eta),
                     0.25 * b * (1.0 + a * xi) * (a * xi + 2.0 * b * eta)};
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double sign = i == 0 ? -1.0 : 1.0;
+    values[4 + 2 * i] = 0.5 * (1.0 - xi * xi) * (1.0 + sign * eta);
+    values[7 - 2 * i] = 0.5 * (1.0 + sign * xi) * (1.0 - eta * eta);
   }
   gradients[4] = {-xi * (1.0 - eta), -0.5 * (1.0 - xi * xi)};
   gradients[5] = {0.5 * (1.0 - eta * eta), -eta * (1.0 + xi)};
   gradients[6] = {-xi * (1.0 + eta), 0.5 * (1.0 - xi * xi)};
   gradients[7] = {-0.5 * (1.0 - eta * eta), -eta * (1.0 - xi)};
-  return gradients;
+  return point;
 }
 
-std::vector<CellPoint> TrianglePoints(CellGradients (*gradients_at)(double, double)) {
+CellPoint Weighted(double weight, CellPoint point) {
+  point.weight = weight;
+  return point;
+}
+
+std::vector<CellPoint> TrianglePoints() {
   std::vector<CellPoint> points;
   for (const auto& [xi, eta] :
        {std::pair(1.0 / 6.0, 1.0 / 6.0), std::pair(2.0 / 3.0, 1.0 / 6.0), std::pair(1.0 / 6.0, 2.0 / 3.0)})
-    points.push_back({1.0 / 6.0, gradients_at(xi, eta)});
+    points.push_back(Weighted(1.0 / 6.0, QuadraticTriangle(xi, eta)));
   return points;
 }
 
-std::vector<CellPoint> SquarePoints(CellGradients (*gradients_at)(double, double)) {
+std::vector<CellPoint> SquarePoints(CellPoint (*point_at)(double, double)) {
   const double at = 1.0 / std::sqrt(3.0);
   std::vector<CellPoint> points;
-  for (const auto& [a, b] : kCorners) points.push_back({1.0, gradients_at(at * a, at * b)});
+  for (const auto& [a, b] : kCorners) points.push_back(Weighted(1.0, point_at(at * a, at * b)));
   return points;
 }
 
@@ -72,8 +88,9 @@ std::vector<CellPoint> SquarePoints(CellGradients (*gradients_at)(double, double
 bool IsCellShape(std::size_t nodes) { return nodes == 3 || nodes == 4 || nodes == 6 || nodes == 8; }
 
 const std::vector<CellPoint>& CellPoints(std::size_t nodes) {
-  static const std::vector<CellPoint> linear_triangle = {{0.5, kLinearTriangle}};
-  static const std::vector<CellPoint> quadratic_triangle = TrianglePoints(QuadraticTriangle);
+  static const std::vector<CellPoint> linear_triangle = {
+      {0.5, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, kLinearTriangle}};
+  static const std::vector<CellPoint> quadratic_triangle = TrianglePoints();
   static const std::vector<CellPoint> bilinear_square = SquarePoints(BilinearSquare);
   static const std::vector<CellPoint> serendipity_square = SquarePoints(SerendipitySquare);
   if (nodes == 3) return linear_triangle;
@@ -106,6 +123,7 @@ std::vector<PlacedPoint> PlacePoints(const std::vector<double>& positions) {
     const double jacobian = by_xi[0] * by_eta[1] - by_xi[1] * by_eta[0];
     PlacedPoint at;
     at.area = point.weight * jacobian;
+    at.values = point.values;
     for (std::size_t i = 0; i < nodes; ++i) {
       const auto& [of_xi, of_eta] = point.gradients[i];
       at.gradients[i] = {(by_eta[1] * of_xi - by_xi[1] * of_eta) / jacobian,

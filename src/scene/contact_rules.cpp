@@ -63,6 +63,9 @@ void ContactRules::CheckContacts(double length) {
       checker_.Add(path, contact.Name(), "must not be repeated");
     else if (node != nullptr && surface != nullptr)
       boundaries_.CheckContact(path, contact, *node, *surface, length);
+    else if (const Obstacle* const circle = RollingCircle(contact, scene_);
+             circle != nullptr && obstacle != nullptr && usable_obstacles_.count(obstacle) > 0)
+      CheckRolling(path, contact, *circle, *obstacle, length);
     else if (node != nullptr && obstacle != nullptr && usable_obstacles_.count(obstacle) > 0)
       CheckGeometry(path, contact, *node, *obstacle, length);
   }
@@ -73,9 +76,6 @@ void ContactRules::CheckPartner(const KeyPath& path, const ContactCandidate& con
     if (contact.obstacle.empty())
       checker_.Add(path.Key("obstacle"), TextOrQuotes(contact.obstacle),
                    "must name an obstacle of the scene where there is no surface");
-    if (contact.friction != 0.0)
-      checker_.Add(path.Key("friction"), NumberText(contact.friction),
-                   "must be 0 where there is no surface: friction with an obstacle is a field of the obstacle");
   } else if (!contact.obstacle.empty()) {
     checker_.Add(path.Key("obstacle"), contact.obstacle, "must be left out where there is a surface");
   }
@@ -92,6 +92,15 @@ void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& co
     checker_.Add(path, contact.Name(),
                  "initial position penetrates the obstacle by " + NumberText(-at.gap) +
                      "; its normal points to the side where nodes may be");
+}
+
+void ContactRules::CheckRolling(const KeyPath& path, const ContactCandidate& contact, const Obstacle& circle,
+                                const Obstacle& obstacle, double length) {
+  const double gap = MakeSurface(WhereCentresMove(obstacle, circle.radius))
+                         ->ProjectOnNearest(Eigen::Vector2d(circle.px, circle.py))
+                         .gap;
+  if (length > 0.0 && gap < -kWrittenRounding * length)
+    checker_.Add(path, contact.Name(), "the circle penetrates the obstacle at the start by " + NumberText(-gap));
 }
 
 void ContactRules::CheckOnCurve(const KeyPath& path, const ContactCandidate& contact, const Node& node,

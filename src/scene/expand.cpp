@@ -50,6 +50,7 @@ class Groups {
     for (const BoundarySurface& surface : scene.surfaces) surfaces_.emplace(surface.name, &surface);
     for (const Node& node : scene.nodes) nodes_.emplace(node.name, &node);
     for (const Solid& solid : scene.solids) {
+      solids_.emplace(SolidName(solid, solids_.size()), &solid);
       const std::size_t count = solid.NodesPerElement();
       if (count <= 4) continue;
       for (std::size_t i = 0; i < solid.nodes.size(); ++i)
@@ -65,6 +66,10 @@ class Groups {
   const BoundarySurface* FindSurface(const std::string& name) const {
     const auto found = surfaces_.find(name);
     return found == surfaces_.end() ? nullptr : found->second;
+  }
+  const Solid* FindSolid(const std::string& name) const {
+    const auto found = solids_.find(name);
+    return found == solids_.end() ? nullptr : found->second;
   }
   bool IsMidSide(const std::string& node) const { return mid_sides_.count(node) > 0; }
 
@@ -91,6 +96,7 @@ class Groups {
   std::unordered_map<std::string_view, GroupNodes> groups_;
   std::unordered_map<std::string_view, const BoundarySurface*> surfaces_;
   std::unordered_map<std::string_view, const Node*> nodes_;
+  std::unordered_map<std::string, const Solid*> solids_;
   std::unordered_set<std::string_view> mid_sides_;  // nodes of solids
 };
 
@@ -120,11 +126,39 @@ void ExpandTraction(const Load& load, const BoundarySurface& surface, const Grou
   }
 }
 
+// Calls add(load on a node) for the weight of a solid, once for each of its nodes.
+template <typename Add>
+void ExpandWeight(const Load& load, const Solid& solid, const Groups& groups, Add&& add) {
+  const std::size_t count = solid.NodesPerElement();
+  std::unordered_map<std::string_view, std::size_t> places;
+  std::vector<std::pair<std::string, double>> volumes;
+  for (std::size_t first = 0; first < solid.nodes.size(); first += count) {
+    std::vector<double> positions;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [x, y] = groups.Place(solid.nodes[first + i]);
+      positions.insert(positions.end(), {x, y});
+    }
+    for (const PlacedPoint& point : PlacePoints(positions))
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto [at, is_new] = places.emplace(solid.nodes[first + i], volumes.size());
+        if (is_new) volumes.emplace_back(at->first, 0.0);
+        volumes[at->second].second += solid.Thickness() * point.area * point.values[i];
+      }
+  }
+  for (const auto& [node, volume] : volumes) add(Load{node, volume * load.bx, volume * load.by, load.constant});
+}
+
 // Calls add(load on a node).
 template <typename Add>
-void ExpandLoad(const Load& load, const Groups& groups, Add&& add) {
+void ExpandLoad(Load load, const Groups& groups, Add&& add) {
   if (const BoundarySurface* const surface = groups.FindSurface(load.surface))
     return ExpandTraction(load, *surface, groups, add);
+  if (const Solid* const solid = groups.FindSolid(load.solid)) return ExpandWeight(load, *solid, groups, add);
+  if (!load.beam.empty()) {
+    load.group = std::exchange(load.beam, {});
+    load.px += std::exchange(load.bx, 0.0);
+    load.py += std::exchange(load.by, 0.0);
+  }
   const GroupNodes* const found = groups.Find(load.group);
   if (found == nullptr) return add(load);
   const GroupNodes& group = *found;
@@ -142,9 +176,9 @@ void ExpandLoad(const Load& load, const Groups& groups, Add&& add) {
 
 // expand(part, add): calls add(part on a node) for a part of the list.
 template <typename Part, typename Expander>
-Places ExpandList(std::vector<Part>* list, Expander&& expand) {
+ListPlaces ExpandList(std::vector<Part>* list, Expander&& expand) {
   std::vector<Part> expanded;
-  Places places;
+  ListPlaces places;
   for (std::size_t i = 0; i < list->size(); ++i)
     expand((*list)[i], [&](const Part& part) {
       expanded.push_back(part);
@@ -169,12 +203,23 @@ void ForEachNode(Part part, const Groups& groups, Add&& add) {
 // A load or a motion of a body is one of its node.
 template <typename Part>
 Part OnNode(Part part) {
-  if (!part.body.empty()) part.node = std::exchange(part.body, {});
+  if (part.body.empty()) return part;
+  part.node = std::exchange(part.body, {});
+  if constexpr (std::is_same_v<Part, Load>) {
+    part.fx += std::exchange(part.bx, 0.0);
+    part.fy += std::exchange(part.by, 0.0);
+  }
   return part;
 }
 
-Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* contacts) {
-  return ExpandList(contacts, [&](const ContactCandidate& contact, auto&& add) {
+ListPlaces ExpandContacts(const Groups& groups, Scene* scene) {
+  return ExpandList(&scene->contacts, [&](const ContactCandidate& contact, auto&& add) {
+    if (const Obstacle* const circle = RollingCircle(contact, *scene)) {
+      ContactCandidate rolling = contact;
+      rolling.node = CentreNode(*circle, *scene);
+      rolling.obstacle = contact.obstacles.back();
+      return add(rolling);
+    }
     const BoundarySurface* const surface = groups.FindSurface(contact.surface);
     const bool all = groups.Find(contact.group) == nullptr || (surface != nullptr && groups.CanMove(*surface));
     ForEachNode(contact, groups, [&](const ContactCandidate& on_node) {
@@ -221,11 +266,25 @@ std::string BarName(const Bar& bar, std::size_t place) {
   return bar.name.empty() ? "bar" + std::to_string(place + 1) : bar.name;
 }
 
-std::vector<std::size_t> OneSidedBars(const Scene& scene) {
-  std::vector<std::size_t> places;
+std::string TendonName(const Tendon& tendon, std::size_t place) {
+  return tendon.name.empty() ? "tendon" + std::to_string(place + 1) : tendon.name;
+}
+
+std::vector<OneSidedBar> OneSidedBars(const Scene& scene) {
+  std::vector<OneSidedBar> bars;
   for (std::size_t i = 0; i < scene.bars.size(); ++i)
-    if (scene.bars[i].sense != BarSense::kBoth) places.push_back(i);
-  return places;
+    if (const Bar& bar = scene.bars[i]; bar.sense != BarSense::kBoth)
+      bars.push_back({BarName(bar, i), &bar.nodes, bar.EA, bar.rest_length, bar.strain, bar.sense});
+  for (std::size_t i = 0; i < scene.tendons.size(); ++i) {
+    const Tendon& tendon = scene.tendons[i];
+    bars.push_back({TendonName(tendon, i), &tendon.nodes, tendon.EA, tendon.rest_length, StrainMeasure::kBiot,
+                    BarSense::kTension});
+  }
+  return bars;
+}
+
+std::string SolidName(const Solid& solid, std::size_t place) {
+  return solid.name.empty() ? "solid" + std::to_string(place + 1) : solid.name;
 }
 
 int BeamSegments(const Beam& beam) { return beam.segments > 0 ? beam.segments : kSegments; }
@@ -252,6 +311,20 @@ std::vector<bool> NodesThatTurn(const Scene& scene) {
   return turn;
 }
 
+const Obstacle* RollingCircle(const ContactCandidate& contact, const Scene& scene) {
+  if (!contact.Rolls()) return nullptr;
+  const auto found = std::find_if(scene.obstacles.begin(), scene.obstacles.end(),
+                                  [&](const Obstacle& of) { return of.name == contact.obstacles.front(); });
+  return found == scene.obstacles.end() ? nullptr : &*found;
+}
+
+std::string CentreNode(const Obstacle& circle, const Scene& scene) {
+  const bool is_body = std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
+    return IsBody(node) && node.name == circle.body && node.x == circle.px && node.y == circle.py;
+  });
+  return is_body ? circle.body : circle.name;
+}
+
 void ExpandParts(Scene* scene) {
   std::unordered_map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < scene->nodes.size(); ++i) places.emplace(scene->nodes[i].name, i);
@@ -273,6 +346,13 @@ void ExpandParts(Scene* scene) {
   }
   for (const RigidBody& body : std::exchange(scene->bodies, {}))
     scene->nodes.push_back({body.name, body.x, body.y, body.fixed_x, body.fixed_y, body.fixed_rotation, body.name});
+  for (const ContactCandidate& contact : scene->contacts) {
+    const Obstacle* const circle = RollingCircle(contact, *scene);
+    if (circle == nullptr || CentreNode(*circle, *scene) != circle->name) continue;
+    const auto of_name = [&](const Node& node) { return node.name == circle->name; };
+    if (std::none_of(scene->nodes.begin(), scene->nodes.end(), of_name))
+      scene->nodes.push_back({circle->name, circle->px, circle->py, false, false, false, circle->body});
+  }
 }
 
 Expansion Expand(const TraceRequest& request) {
@@ -282,7 +362,7 @@ Expansion Expand(const TraceRequest& request) {
   ExpandParts(&scene);
   FixNodes(&scene);
   const Groups groups(scene);
-  expansion.contacts = ExpandContacts(groups, &scene.contacts);
+  expansion.contacts = ExpandContacts(groups, &scene);
   ExpandLoading(groups, &scene, &expansion);
   for (Stage& stage : expansion.request.program) ExpandLoading(groups, &stage, &expansion);
   return expansion;
@@ -295,13 +375,16 @@ bool NeedsExpansion(const TraceRequest& request) {
   const auto any_in = [&](const auto& loading) {
     return any_group(loading.loads) || any_group(loading.support_motions) ||
            std::any_of(loading.loads.begin(), loading.loads.end(),
-                       [](const Load& load) { return !load.surface.empty() || load.px != 0.0 || load.py != 0.0; });
+                       [](const Load& load) {
+                         return !load.surface.empty() || !load.solid.empty() || !load.beam.empty() || load.px != 0.0 ||
+                                load.py != 0.0 || load.bx != 0.0 || load.by != 0.0;
+                       });
   };
   const Scene& scene = request.scene;
   return !scene.beams.empty() || !scene.bodies.empty() || !scene.groups.empty() || !scene.surfaces.empty() ||
          !scene.supports.empty() || any_in(scene) || any_group(scene.contacts) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                     [](const ContactCandidate& contact) { return contact.OnSurface(); }) ||
+                     [](const ContactCandidate& contact) { return contact.OnSurface() || contact.Rolls(); }) ||
          std::any_of(request.program.begin(), request.program.end(), any_in);
 }
 

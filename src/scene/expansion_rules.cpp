@@ -120,6 +120,7 @@ class GroupRules {
       const ContactCandidate& contact = scene_.contacts[i];
       CheckGroup(contacts[i], contact.node, contact.group);
       if (contact.OnSurface()) CheckSurfaceName(contacts[i], contact.surface);
+      if (contact.Rolls()) CheckRolling(contacts[i], contact);
     }
     for (std::size_t i = 0; i < checker_.Request().program.size(); ++i)
       CheckLoading(program[i], checker_.Request().program[i]);
@@ -134,6 +135,35 @@ class GroupRules {
     for (const Group& known : scene_.groups) nearest.Offer(known.name);
     for (const Beam& known : scene_.beams) nearest.Offer(known.name);
     checker_.Add(path.Key("group"), group, "must name a group or a beam of the scene" + nearest.Question());
+  }
+
+  void CheckRolling(const KeyPath& path, const ContactCandidate& contact) {
+    const KeyPath key = path.Key("obstacles");
+    for (const auto& [name, value] : {std::pair("node", contact.node), std::pair("obstacle", contact.obstacle),
+                                      std::pair("group", contact.group), std::pair("surface", contact.surface)})
+      if (!value.empty()) checker_.Add(path.Key(name), value, "must be left out where there are obstacles");
+    if (contact.obstacles.size() != 2)
+      return checker_.Add(key, ListText(contact.obstacles), "must name two obstacles: a circle, and what it may touch");
+    const Obstacle *const circle = checker_.KnownObstacle(contact.obstacles[0]),
+                         *const partner = checker_.KnownObstacle(contact.obstacles[1]);
+    for (std::size_t i = 0; i < 2; ++i)
+      if (checker_.KnownObstacle(contact.obstacles[i]) == nullptr)
+        return checker_.Add(
+            key[i], contact.obstacles[i],
+            "must name an obstacle of the scene" +
+                NearestOf(contact.obstacles[i], scene_.obstacles, &Obstacle::name).Question());
+    if (circle->shape != ObstacleShape::kCircle || circle->inside || circle->body.empty())
+      return checker_.Add(key[0], circle->name, "must be a circle that a body carries, and not be its inside");
+    if (partner->shape != ObstacleShape::kHalfPlane && partner->shape != ObstacleShape::kCircle)
+      return checker_.Add(key[1], partner->name, "must be a half plane or a circle");
+    if (partner->body == circle->body)
+      return checker_.Add(key[1], partner->name, "must not be carried by the same body, " + circle->body);
+    if (partner->inside && !(circle->radius < partner->radius))
+      return checker_.Add(key[0], circle->name, "must have a smaller radius than " + partner->name);
+    const Node* const centre = checker_.KnownNode(CentreNode(*circle, scene_));
+    if (centre != nullptr &&
+        (centre->body != circle->body || centre->x != circle->px || centre->y != circle->py))
+      checker_.Add(key[0], circle->name, "must not have the name of a node that is not at the centre of the circle");
   }
 
   template <typename Part>
@@ -169,6 +199,33 @@ class GroupRules {
       if (value != 0.0)
         checker_.Add(path.Key(name), NumberText(value), "must be 0 where there is a surface: px and py act on it");
     CheckSurfaceName(path, load.surface);
+  }
+
+  // What the weight of a solid or a beam leaves out.
+  void CheckWeight(const KeyPath& path, const Load& load) {
+    const bool of_solid = !load.solid.empty();
+    const char* const part = of_solid ? "solid" : "beam";
+    for (const auto& [name, value] :
+         {std::pair("node", load.node), std::pair("group", load.group), std::pair("surface", load.surface),
+          std::pair("body", load.body), std::pair("beam", of_solid ? load.beam : std::string())})
+      if (!value.empty()) checker_.Add(path.Key(name), value, std::string("must be left out where there is a ") + part);
+    for (const auto& [name, value] :
+         {std::pair("fx", load.fx), std::pair("fy", load.fy), std::pair("moment", load.moment),
+          std::pair("px", load.px), std::pair("py", load.py)})
+      if (value != 0.0)
+        checker_.Add(path.Key(name), NumberText(value),
+                     std::string("must be 0 where there is a ") + part + ": bx and by act on it");
+    NearestName nearest(of_solid ? load.solid : load.beam);
+    bool known = false;
+    const auto offer = [&](const std::string& name) {
+      nearest.Offer(name);
+      known = known || name == (of_solid ? load.solid : load.beam);
+    };
+    for (std::size_t i = 0; of_solid && i < scene_.solids.size(); ++i) offer(SolidName(scene_.solids[i], i));
+    for (std::size_t i = 0; !of_solid && i < scene_.beams.size(); ++i) offer(BeamName(scene_.beams[i], i));
+    if (!known)
+      checker_.Add(path.Key(part), of_solid ? load.solid : load.beam,
+                   std::string("must name a ") + part + " of the scene" + nearest.Question());
   }
 
   void CheckSurfaceName(const KeyPath& path, const std::string& surface) {
@@ -215,6 +272,13 @@ class GroupRules {
     }
     for (std::size_t i = 0; i < loading.loads.size(); ++i) {
       const Load& load = loading.loads[i];
+      if (!load.solid.empty() || !load.beam.empty()) {
+        CheckWeight(list[i], load);
+        continue;
+      }
+      if (const double weight = load.bx != 0.0 ? load.bx : load.by; weight != 0.0 && load.body.empty())
+        checker_.Add(list[i].Key(load.bx != 0.0 ? "bx" : "by"), NumberText(weight),
+                     "must be 0: a weight needs a solid, a beam or a body");
       if (!load.surface.empty()) {
         CheckSurfaceLoad(list[i], load);
         continue;

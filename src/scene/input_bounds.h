@@ -2,6 +2,8 @@
 #ifndef CONTACT_PATH_SRC_SCENE_INPUT_BOUNDS_H_
 #define CONTACT_PATH_SRC_SCENE_INPUT_BOUNDS_H_
 
+#include <cstddef>
+
 namespace contact_path {
 
 // Within these bounds no product or quotient that is formed of two inputs leaves the range of double.
@@ -15,6 +17,9 @@ constexpr double kCancelled = 1e-12;
 // What inputs may be off by because they were written with few digits, relative to the largest of them; a gap, to the
 // characteristic length. Far above rounding and far below anything meant, too.
 constexpr double kWrittenRounding = 1e-9;
+
+// The most unknowns that may move the nodes of one tendon: kMostLawDofs (structure/local_vector.h).
+constexpr std::size_t kMostTendonUnknowns = 24;
 
 }  // namespace contact_path
 

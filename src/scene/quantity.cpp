@@ -71,7 +71,7 @@ std::optional<Quantity> FindInElements(Quantity::Kind kind, std::string_view nam
   const ElementNames& names = index.Elements();
   const bool of_section = Quantity{kind}.IsOfSection();
   const std::optional<std::size_t> part = of_section ? names.FindSection(name) : names.FindElement(name);
-  if (!part || (of_section && kind != Quantity::Kind::kN && names.IsBar(*part))) return std::nullopt;
+  if (!part || (of_section && kind != Quantity::Kind::kN && names.HasOnlyN(*part))) return std::nullopt;
   return Quantity{kind, *part};
 }
 

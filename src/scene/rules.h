@@ -95,6 +95,8 @@ class ContactRules {
                      double length);
 
   // Of another shape than a half plane. Past the ends of an open curve there is nothing to penetrate.
+  void CheckRolling(const KeyPath& path, const ContactCandidate& contact, const Obstacle& circle,
+                    const Obstacle& obstacle, double length);
   void CheckOnCurve(const KeyPath& path, const ContactCandidate& contact, const Node& node, const Obstacle& obstacle,
                     double length);
 

@@ -16,6 +16,7 @@
 
 #include "contact_path/scene/cell.h"
 #include "contact_path/scene/change_units.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/solid_parts.h"
 #include "contact_path/scene/surface.h"
 #include "contact_path/tolerances.h"
@@ -84,6 +85,10 @@ Scaling ScalesOfElements(const Scene& scene, const SceneIndex& index) {
   for (const Bar& bar : scene.bars) {
     lengths.push_back(LengthOf(bar.nodes, scene, index));
     logarithms.push_back(std::log(bar.EA));
+  }
+  for (const Tendon& tendon : scene.tendons) {
+    lengths.push_back(LengthOf(tendon.nodes, scene, index));
+    logarithms.push_back(std::log(tendon.EA));
   }
   for (const Beam& beam : scene.beams) {
     const double length = LengthOf(beam.nodes, scene, index);
@@ -244,7 +249,9 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
     if (made->second == nullptr) continue;
     const Eigen::Vector2d x(scene.nodes[*at].x, scene.nodes[*at].y);
     const NearestFoot nearest = made->second->Nearest(x);
-    gaps.push_back(nearest.is_end ? nearest.distance : made->second->Project(x, nearest.patch).gap);
+    const Obstacle* const circle = RollingCircle(contact, scene);
+    gaps.push_back((nearest.is_end ? nearest.distance : made->second->Project(x, nearest.patch).gap) -
+                   (circle == nullptr ? 0.0 : circle->radius));
   }
   double size = 0.0;
   for (const double gap : gaps) size = std::max(size, gap);
@@ -258,7 +265,9 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
 
 }  // namespace
 
-bool HasForceScale(const Scene& scene) { return !scene.bars.empty() || !scene.beams.empty() || !scene.solids.empty(); }
+bool HasForceScale(const Scene& scene) {
+  return !scene.bars.empty() || !scene.beams.empty() || !scene.solids.empty() || !scene.tendons.empty();
+}
 
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;
@@ -291,7 +300,7 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
 double ForceOfElements(const Scene& scene, const SceneIndex& index, double loads, bool moves) {
   const Scaling of_elements = ScalesOfElements(scene, index);
   const double light = std::max(loads, LoadNorm(scene, index, true, of_elements.length));
-  return moves || !scene.bars.empty() || light == 0.0 ? of_elements.force
+  return moves || !scene.bars.empty() || !scene.tendons.empty() || light == 0.0 ? of_elements.force
                                                       : std::min(of_elements.force, kLightest * light);
 }
 

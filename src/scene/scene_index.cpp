@@ -31,8 +31,14 @@ ElementNames::ElementNames(const Scene& scene) : num_bars_(scene.bars.size()), n
   for (std::size_t i = 0; i < scene.beams.size(); ++i) {
     const Beam& beam = scene.beams[i];
     const std::size_t segments = beam.nodes.empty() ? 0 : beam.nodes.size() - 1;
-    beams_.push_back({BeamName(beam, i), num_sections_, segments});
+    chains_.push_back({BeamName(beam, i), num_sections_, segments});
     num_sections_ += segments;
+  }
+  first_tendon_ = num_sections_;
+  for (std::size_t i = 0; i < scene.tendons.size(); ++i) {
+    const std::size_t pieces = std::max<std::size_t>(scene.tendons[i].nodes.size(), 1) - 1;
+    chains_.push_back({TendonName(scene.tendons[i], i), num_sections_, pieces});
+    num_sections_ += pieces;
   }
   std::unordered_set<std::string> names;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -52,7 +58,7 @@ std::string ElementNames::NameIn(const std::vector<Part>& parts, std::size_t num
 }
 
 std::string ElementNames::SectionName(std::size_t section) const {
-  return IsBar(section) ? std::string(kBar) + std::to_string(section + 1) : NameIn(beams_, section);
+  return section < num_bars_ ? std::string(kBar) + std::to_string(section + 1) : NameIn(chains_, section);
 }
 
 std::string ElementNames::ElementName(std::size_t element) const { return NameIn(solids_, element); }
@@ -71,7 +77,7 @@ std::optional<std::size_t> ElementNames::FindSection(std::string_view name) cons
     const std::size_t number = NumberIn(name.substr(kBar.size()));
     return number >= 1 && number <= num_bars_ ? std::optional(number - 1) : std::nullopt;
   }
-  return FindIn(beams_, name);
+  return FindIn(chains_, name);
 }
 
 std::optional<std::size_t> ElementNames::FindElement(std::string_view name) const { return FindIn(solids_, name); }

@@ -1,6 +1,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "scene/rules.h"
 
@@ -66,6 +67,9 @@ class StructureRules {
       if (name != BarName({}, i) && by_place.count(name) != 0)
         checker_.Add(kScene.Key("bars")[i].Key("name"), name, "must not be that of the place of another bar");
     }
+    for (const Beam& beam : scene_.beams) earlier.insert(beam.name);  // whose sections have names alike
+    for (std::size_t i = 0; i < scene_.tendons.size(); ++i)
+      checker_.CheckName(kScene.Key("tendons")[i].Key("name"), TendonName(scene_.tendons[i], i), &earlier);
   }
 
  private:
@@ -96,6 +100,8 @@ class StructureRules {
     const KeyPath nodes = path.Key("nodes");
     if constexpr (std::is_same_v<Part, Bar>) {
       CheckTwoNodes(&checker_, nodes, element.nodes);
+    } else if constexpr (std::is_same_v<Part, Tendon>) {
+      CheckSpans(nodes, element.nodes);
     } else if constexpr (!std::is_same_v<Part, Solid>) {  // of a mesh, each element has nodes of its own
       CheckNodeList(nodes, element.nodes);
     }
@@ -108,6 +114,25 @@ class StructureRules {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (!earlier.insert(nodes[i]).second && checker_.KnownNode(nodes[i]) != nullptr)
         checker_.Add(key[i], nodes[i], "must not be repeated");
+  }
+
+  void CheckSpans(const KeyPath& key, const std::vector<std::string>& nodes) {
+    if (nodes.size() < 2) return checker_.Add(key, ListText(nodes), "must name two nodes at least");
+    std::set<std::pair<std::string, int>> unknowns;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Node *const node = checker_.KnownNode(nodes[i]), *const next = checker_.KnownNode(nodes[(i + 1) % nodes.size()]);
+      if (node == nullptr || next == nullptr) return;
+      if (i + 1 < nodes.size() && std::hypot(next->x - node->x, next->y - node->y) < kSmallestInput)
+        checker_.Add(key[i + 1], nodes[i + 1], "must not be at the same point as the node before");
+      const Node& moves = IsAttached(*node) && checker_.KnownNode(node->body) != nullptr ? *checker_.KnownNode(node->body) : *node;
+      if (!moves.fixed_x) unknowns.emplace(moves.name, 0);
+      if (!moves.fixed_y) unknowns.emplace(moves.name, 1);
+      if (IsBody(moves) && !moves.fixed_rotation) unknowns.emplace(moves.name, 2);
+    }
+    if (unknowns.size() > kMostTendonUnknowns)
+      checker_.Add(key, ListText(nodes),
+                   "must have at most " + std::to_string(kMostTendonUnknowns) + " unknowns that move its nodes: has " +
+                       std::to_string(unknowns.size()));
   }
 
   // What the description of an element does not tell. sound: its fields are.

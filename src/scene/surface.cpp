@@ -35,10 +35,18 @@ PlanePoints PlacedPoints(const Obstacle& obstacle) {
   return points;
 }
 
-double FilletOf(const Obstacle& obstacle, const PlanePoints& points) {
-  if (obstacle.fillet > 0.0) return obstacle.fillet;
-  const double largest = LargestFillet(points, obstacle.closed);
-  return std::isfinite(largest) ? kFilletShare * largest : 1.0;  // without corners any radius does
+// By point.
+std::vector<double> FilletsOf(const Obstacle& obstacle, const PlanePoints& points) {
+  double fillet = obstacle.fillet;
+  if (!(fillet > 0.0)) {
+    const double largest = LargestFillet(points, obstacle.closed);
+    fillet = std::isfinite(largest) ? kFilletShare * largest : 1.0;  // without corners any radius does
+  }
+  std::vector<double> fillets = obstacle.fillets;
+  fillets.resize(points.size());
+  for (double& of : fillets)
+    if (!(of > 0.0)) of = fillet;
+  return fillets;
 }
 
 ShapeFault FindPointFault(const Obstacle& obstacle, const PlanePoints& points) {
@@ -72,6 +80,14 @@ ShapeFault FindPolylineFault(const Obstacle& obstacle, const PlanePoints& points
   if (obstacle.fillet > (1.0 + kCancelled) * largest)
     return {"fillet", "must be at most " + Text(largest) + ": the edges have no room for larger fillets",
             NumberText(obstacle.fillet)};
+  if (obstacle.fillets.empty()) return {};
+  if (obstacle.fillets.size() != points.size())
+    return {"fillets", "must be empty or have " + std::to_string(points.size()) + " entries, one for each point",
+            std::to_string(obstacle.fillets.size()) + " entries"};
+  if (obstacle.fillet > 0.0) return {"fillet", "must be 0 where fillets are given", NumberText(obstacle.fillet)};
+  if (const auto edge = TooShort(points, obstacle.closed, FilletsOf(obstacle, points), kCancelled))
+    return {"fillets", "the edge from point " + Number(*edge) + " must have room for those at both of its ends",
+            "a radius"};
   return {};
 }
 
@@ -96,6 +112,17 @@ ShapeFault FindShapeFault(const Obstacle& obstacle) {
   return FindPolylineFault(obstacle, points);
 }
 
+Obstacle WhereCentresMove(Obstacle obstacle, double radius) {
+  if (obstacle.shape == ObstacleShape::kCircle) {
+    obstacle.radius += obstacle.inside ? -radius : radius;
+  } else {
+    const double share = radius / std::hypot(obstacle.nx, obstacle.ny);
+    obstacle.px += share * obstacle.nx;
+    obstacle.py += share * obstacle.ny;
+  }
+  return obstacle;
+}
+
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
   const Eigen::Vector2d point(obstacle.px, obstacle.py);
   switch (obstacle.shape) {
@@ -103,7 +130,7 @@ std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
     case ObstacleShape::kCircle: return MakeCircle(point, obstacle.radius, obstacle.inside);
     case ObstacleShape::kPolyline: {
       const PlanePoints points = PlacedPoints(obstacle);
-      return MakePolyline(points, obstacle.closed, FilletOf(obstacle, points));
+      return MakePolyline(points, obstacle.closed, FilletsOf(obstacle, points));
     }
     case ObstacleShape::kSpline: return MakeSpline(PlacedPoints(obstacle), obstacle.closed);
   }

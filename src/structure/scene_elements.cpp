@@ -1,9 +1,11 @@
 #include "contact_path/structure/scene_elements.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -50,6 +52,68 @@ class LinearSuperelement : public Element {
   std::vector<LocalDof> dofs_;
 };
 
+// W = EA (l - l0)^2 / (2 l0) of the length l along the nodes, where it is > l0: of a tendon, whose forces are asked for.
+class TendonElement : public Element {
+ public:
+  TendonElement(double EA, double rest_length, int num_nodes)
+      : stiffness_(EA / rest_length), rest_length_(rest_length), dofs_(PositionsOfNodes(num_nodes)) {}
+
+  const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+    const double longer = Longer(x);
+    return 0.5 * stiffness_ * longer * longer;
+  }
+  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
+    force.setZero();
+    AddPull(x, stiffness_ * Longer(x), force);
+  }
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
+    tangent.setZero();
+    const double tension = stiffness_ * Longer(x);
+    if (!(tension > 0.0)) return;
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+    AddPull(x, 1.0, gradient);
+    tangent = stiffness_ * gradient * gradient.transpose();
+    ForEachSpan(x, [&](Eigen::Index k, const Eigen::Vector2d& direction, double length) {
+      const Eigen::Matrix2d across =
+          tension / length * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+      tangent.block<2, 2>(k, k) += across;
+      tangent.block<2, 2>(k + 2, k + 2) += across;
+      tangent.block<2, 2>(k, k + 2) -= across;
+      tangent.block<2, 2>(k + 2, k) -= across;
+    });
+  }
+  // Paths are traced with its law (law/slack_bar.h).
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>&, const Eigen::Ref<const Eigen::VectorXd>&,
+                         Eigen::Ref<Eigen::MatrixXd> derivative) const override {
+    derivative.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+ private:
+  template <typename Visit>
+  static void ForEachSpan(const Eigen::Ref<const Eigen::VectorXd>& x, Visit&& visit) {
+    for (Eigen::Index k = 0; k + 2 < x.size(); k += 2) {
+      const Eigen::Vector2d span = x.segment<2>(k + 2) - x.segment<2>(k);
+      if (const double length = span.norm(); length > 0.0) visit(k, span / length, length);
+    }
+  }
+  // By how much than l0; 0 where it is slack.
+  double Longer(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    double sum = 0.0;
+    ForEachSpan(x, [&](Eigen::Index, const Eigen::Vector2d&, double length) { sum += length; });
+    return std::max(sum - rest_length_, 0.0);
+  }
+  static void AddPull(const Eigen::Ref<const Eigen::VectorXd>& x, double tension, Eigen::Ref<Eigen::VectorXd> force) {
+    ForEachSpan(x, [&](Eigen::Index k, const Eigen::Vector2d& direction, double) {
+      force.segment<2>(k) -= tension * direction;
+      force.segment<2>(k + 2) += tension * direction;
+    });
+  }
+
+  double stiffness_, rest_length_;
+  std::vector<LocalDof> dofs_;
+};
+
 // Places of the nodes of an element in the reference shape.
 Eigen::VectorXd PositionsOf(const std::vector<int>& nodes, const std::vector<double>& reference) {
   Eigen::VectorXd positions(2 * static_cast<Eigen::Index>(nodes.size()));
@@ -67,6 +131,17 @@ void Place(const Bar& bar, std::vector<int> nodes, const std::vector<double>& re
   const double distance = std::hypot(ends[2] - ends[0], ends[3] - ends[1]);
   const double rest_length = bar.rest_length > 0.0 ? bar.rest_length : distance;
   elements->push_back({std::make_unique<BarElement>(bar.EA, rest_length, bar.strain, bar.sense), std::move(nodes)});
+}
+
+void Place(const Tendon& tendon, std::vector<int> nodes, const std::vector<double>& reference,
+           std::vector<PlacedElement>* elements) {
+  const Eigen::VectorXd places = PositionsOf(nodes, reference);
+  double length = 0.0;
+  for (Eigen::Index k = 0; k + 2 < places.size(); k += 2)
+    length += (places.segment<2>(k + 2) - places.segment<2>(k)).norm();
+  elements->push_back({std::make_unique<TendonElement>(tendon.EA, tendon.rest_length > 0.0 ? tendon.rest_length : length,
+                                                       static_cast<int>(nodes.size())),
+                       std::move(nodes)});
 }
 
 void Place(const Superelement& part, std::vector<int> nodes, const std::vector<double>& reference,
@@ -119,6 +194,8 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
       } else {
         if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Bar>)
           if (part.sense != BarSense::kBoth && bars == OneSided::kLaws) continue;
+        if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Tendon>)
+          if (bars == OneSided::kLaws) continue;
         std::vector<int> nodes;
         for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
         Place(part, std::move(nodes), reference, &elements);

@@ -93,18 +93,22 @@ void PointChecks::CheckState(const Increment& before, const Increment& at, bool 
 }
 
 void PointChecks::CheckBars(const Increment& at, double tolerance) {
-  const std::vector<std::size_t> bars = OneSidedBars(stage_.scene);
+  const std::vector<OneSidedBar> bars = OneSidedBars(stage_.scene);
   for (std::size_t k = 0; k < bars.size(); ++k) {
-    const Bar& bar = stage_.scene.bars[bars[k]];
+    const OneSidedBar& bar = bars[k];
     const auto length = [&](const std::vector<double>& positions) {
-      const std::size_t a = stage_.index.Node(bar.nodes[0]), b = stage_.index.Node(bar.nodes[1]);
-      return std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
+      double sum = 0.0;
+      for (std::size_t i = 1; i < bar.nodes->size(); ++i) {
+        const std::size_t a = stage_.index.Node((*bar.nodes)[i - 1]), b = stage_.index.Node((*bar.nodes)[i]);
+        sum += std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
+      }
+      return sum;
     };
     const double rest = bar.rest_length > 0.0 ? bar.rest_length : length(stage_.configuration.reference);
     const double longer = (length(at.positions) - rest) / stage_.scaling.length;
     const bool taut = at.bars[k] == BarState::kTaut;
     if ((bar.sense == BarSense::kTension) == taut ? longer < -tolerance : longer > tolerance)
-      findings_.Report("bar ", BarName(bar, bars[k]), " is recorded as ", ToString(at.bars[k]), ", but is not");
+      findings_.Report("bar ", bar.name, " is recorded as ", ToString(at.bars[k]), ", but is not");
   }
 }
 

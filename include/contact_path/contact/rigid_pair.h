@@ -1,4 +1,4 @@
-// A node against the surface of a rigid obstacle that may move.
+// A node, or a circle of a body, against the surface of a rigid obstacle that may move.
 #ifndef CONTACT_PATH_CONTACT_RIGID_PAIR_H_
 #define CONTACT_PATH_CONTACT_RIGID_PAIR_H_
 
@@ -12,18 +12,29 @@
 
 namespace contact_path {
 
+// Of a circle that rolls or slides on an obstacle.
+struct Rolling {
+  double radius = 0.0;         // [length]; 0: a node
+  Coordinate angle, obstacle;  // of the body that carries the circle, and of the obstacle
+};
+
 // gap(q) and xi(q) are the values of the surface at x(q), where the obstacle sees the node: derivatives by x come from
 // the projection (geometry/surface.h), those by q from the chain rule (structure/place.h). Of a flat surface and an
-// affine place everything but the values is constant. Two threads must not use the same pair at once.
+// affine place everything but the values is constant. A circle is its centre on the surface on which centres move, and
+// its boundary moves along xi, besides, by its radius times the angle by which it turns there. Two threads must not use
+// the same pair at once.
 class RigidPair : public ContactPair {
  public:
   // friction: mu; 0 where the node cannot slide (scene/surface.h).
   // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
   // slip_origin: of the total law of friction, the point from whose foot slip is measured, as the obstacle sees it
   // [length]; nothing: incremental law. compliance: of its ports, where reactions need not be determined without.
+  // rolls: of a circle, whose place is its centre; the surface then is that on which it moves, and has no ends of
+  // patches.
   RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
             const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
-            const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt, double compliance = 0.0);
+            const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt, double compliance = 0.0,
+            const Rolling& rolls = {});
 
   void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
                 PortsAt* ports) const override;
@@ -44,6 +55,7 @@ class RigidPair : public ContactPair {
 
   std::shared_ptr<const Surface> surface_;
   MovingPlace place_;
+  LawVector roll_;  // d(xi)/dq by the turn of a circle
   // Of a flat surface: offset + gradient . q.
   double gap_offset_ = 0.0, xi_offset_ = 0.0;
   LawVector gap_gradient_, xi_gradient_;

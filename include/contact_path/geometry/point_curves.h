@@ -26,9 +26,14 @@ std::optional<std::pair<std::size_t, std::size_t>> FindCrossing(const PlanePoint
 double LargestFillet(const PlanePoints& points, bool closed);
 
 // Edges and fillets in turn, each a patch, from the first point to the last; closed, from the fillet of the first
-// point, its end, round to the same place. At least two points, closed three, no neighbours equal; 0 < fillet <=
-// LargestFillet().
-std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, double fillet);
+// point, its end, round to the same place. At least two points, closed three, no neighbours equal; fillets: by point,
+// > 0, for which no edge is TooShort().
+std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, const std::vector<double>& fillets);
+
+// The first point whose edge to the next one has no room for the fillets at both of its ends, but for `rounding` of its
+// length.
+std::optional<std::size_t> TooShort(const PlanePoints& points, bool closed, const std::vector<double>& fillets,
+                                    double rounding);
 
 // The cubic spline through the points, whose parameter grows by the distance from point to point. Its second derivative
 // by the parameter is continuous, and so is the curvature; it is zero at the ends of an open curve ("natural"). Each

@@ -1,4 +1,4 @@
-// A bar that bears in one sense alone, as a law: taut or slack.
+// A bar that bears in one sense alone, or a tendon, as a law: taut or slack.
 #ifndef CONTACT_PATH_LAW_SLACK_BAR_H_
 #define CONTACT_PATH_LAW_SLACK_BAR_H_
 
@@ -22,15 +22,16 @@ constexpr int NumberOf(BarState state) { return static_cast<int>(state); }
 // "taut", "slack".
 std::string_view ToString(BarState state);
 
-// With the strain e of the length between two places (scene.h, StrainMeasure) and sigma = 1 of a bar that bears
+// With the strain e of the length of the spans, each between two places (scene.h, StrainMeasure), and sigma = 1 of a bar that bears
 // tension, -1 of one that bears compression, the port has the motion g = -sigma l0 e [length], and the force r >= 0
 // along it:
 //   taut:   g + (l0 / EA) r = 0, r >= 0, so that r = sigma EA e, the force of a bar by its energy EA l0 e^2 / 2
 //   slack:  r = 0, g >= 0
 class SlackBar : public Law {
  public:
-  // span: from one end to the other. EA > 0 [force], rest_length > 0 [length]; sense: not kBoth.
-  SlackBar(MovingPlace span, double EA, double rest_length, StrainMeasure strain, BarSense sense);
+  // spans: from each node to the next; several only with kBiot. EA > 0 [force], rest_length > 0 [length]; sense: not
+  // kBoth. They must not depend on more than kMostLawDofs unknowns.
+  SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length, StrainMeasure strain, BarSense sense);
 
   void Evaluate(const Eigen::VectorXd& u, double s, int piece, const PortReals& reference,
                 PortsAt* ports) const override;
@@ -53,12 +54,12 @@ class SlackBar : public Law {
   };
   Strain StrainAt(double q) const;
 
-  MovingPlace span_;
+  std::vector<MovingPlace> spans_;
   double rest_length_, compliance_, sense_;
   StrainMeasure strain_;
 };
 
-// Of the bars of the scene that bear in one sense alone, in their order. `scene` must be sound, `structure` built from
+// Of OneSidedBars() of the scene, in their order. `scene` must be sound, `structure` built from
 // it. reference: x0, y0, x1, ... of the shape without stress (scene/configuration.h).
 std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, const SceneIndex& index,
                                                             const Structure& structure,

@@ -10,10 +10,12 @@ namespace contact_path {
 
 // Of each node's shape function, by two coordinates.
 using CellGradients = std::array<std::array<double, 2>, 8>;
+using CellValues = std::array<double, 8>;
 
 // An integration point of the reference cell: the triangle (0, 0), (1, 0), (0, 1), or the square [-1, 1]^2.
 struct CellPoint {
-  double weight = 0.0;        // of the area of the reference cell
+  double weight = 0.0;  // of the area of the reference cell
+  CellValues values{};
   CellGradients gradients{};  // by the coordinates of the cell
 };
 
@@ -34,7 +36,8 @@ std::array<double, 3> ShapeLengths(const std::array<double, 2>& first, const std
 
 // An integration point of an element whose nodes are at `positions`: x0, y0, x1, ... [length].
 struct PlacedPoint {
-  double area = 0.0;          // weight x Jacobian [length^2]; > 0 where the element is sound
+  double area = 0.0;  // weight x Jacobian [length^2]; > 0 where the element is sound
+  CellValues values{};
   CellGradients gradients{};  // by x and y [1/length]
 };
 

@@ -14,9 +14,21 @@ namespace contact_path {
 // The name of a beam, given or by its place in the list, from 0.
 std::string BeamName(const Beam& beam, std::size_t place);
 std::string BarName(const Bar& bar, std::size_t place);
+std::string SolidName(const Solid& solid, std::size_t place);
 
-// Places in the list of the bars that bear in one sense alone.
-std::vector<std::size_t> OneSidedBars(const Scene& scene);
+std::string TendonName(const Tendon& tendon, std::size_t place);
+
+// What bears in one sense alone: a bar, or a tendon, whose length is that from node to node.
+struct OneSidedBar {
+  std::string name;
+  const std::vector<std::string>* nodes;  // of the scene
+  double EA, rest_length;                 // rest_length: as the scene has it
+  StrainMeasure strain;
+  BarSense sense;
+};
+
+// Bars, then tendons, in the order of the scene.
+std::vector<OneSidedBar> OneSidedBars(const Scene& scene);
 
 // The number of its segments, given or by default.
 int BeamSegments(const Beam& beam);
@@ -34,24 +46,34 @@ bool HasRotations(const Scene& scene);
 inline bool IsBody(const Node& node) { return !node.body.empty() && node.body == node.name; }
 inline bool IsAttached(const Node& node) { return !node.body.empty() && node.body != node.name; }
 
+// The circle of a contact that rolls; null for others, and where the scene does not have its obstacle.
+const Obstacle* RollingCircle(const ContactCandidate& contact, const Scene& scene);
+
+// The node at the centre of a circle that a body carries: the body itself, if its reference point is there, or the node
+// of the name of the circle. scene: expanded.
+std::string CentreNode(const Obstacle& circle, const Scene& scene);
+
 // The inner nodes of all beams follow the nodes of the scene, beam by beam; each beam lists all of its nodes. Bodies
-// follow as nodes. `scene` must have sound beams; of a beam that is expanded nothing changes.
+// follow as nodes, and then the centres of circles that roll. `scene` must have sound beams; of a beam that is expanded
+// nothing changes.
 void ExpandParts(Scene* scene);
 
 // Where the parts of an expanded list stand in the list of the request, from 0.
-using Places = std::vector<std::size_t>;
+using ListPlaces = std::vector<std::size_t>;
 
 // The request with the inner nodes of its beams and with nodes in place of its bodies, and with loads, contacts and
-// support motions on nodes in place of those on groups; what `supports` fix is fixed in the nodes. A node that is fixed
+// support motions on nodes in place of those on groups; what `supports` fix is fixed in the nodes. A circle that rolls
+// has its centre for the node of its contact. A node that is fixed
 // in x and y is no candidate of its group, but with a surface that can move. A traction acts on the nodes of each
 // segment of a beam, half of its resultant on each, which is exact to second order in the length of the segment, and on
-// the nodes of each edge of a solid by their shape functions. `request` must be sound (validate.h); a part that names
+// the nodes of each edge of a solid by their shape functions; the weight of a solid acts on the nodes of each of its
+// elements by their shape functions. `request` must be sound (validate.h); a part that names
 // no group, beam or surface of the scene stays as it is.
 struct Expansion {
   TraceRequest request;
-  Places contacts;
+  ListPlaces contacts;
   // Of the scene, and then by stage.
-  std::vector<Places> loads, motions;
+  std::vector<ListPlaces> loads, motions;
 };
 Expansion Expand(const TraceRequest& request);
 

@@ -120,6 +120,22 @@ constexpr auto Fields(Of<Bar>) {
                     Member("strain", &P::strain), Member("sense", &P::sense), Member("name", &P::name));
 }
 
+// String from its first node through the others, along which it slides without friction, to the last one. It bears
+// tension alone: energy EA l0 e^2 / 2, e = l / l0 - 1 >= 0 with the sum l of the distances from node to node.
+struct Tendon {
+  std::string name;                // of the column of its state; empty = "tendon<place in the list, from 1>"
+  std::vector<std::string> nodes;  // two names at least; a name may come again
+  double EA = 0.0;                 // [force], > 0
+  double rest_length = 0.0;        // l0 [length]; 0 = the sum of the distances at the start
+};
+
+template <typename P>
+constexpr auto Fields(Of<Tendon>) {
+  return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                    Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
+                    Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive));
+}
+
 // Linear elastic part: force = K (x - X), both ordered x0, y0, x1, y1, ... over `nodes`.
 struct Superelement {
   std::vector<std::string> nodes;           // n names
@@ -170,7 +186,8 @@ constexpr auto Fields(Of<Group>) {
                     Member("nodes", &P::nodes).Naming(TextKind::kNode));
 }
 
-// Dead load: on a node, or on each node of a group, on a body, or, as a traction, on a beam or a surface.
+// Dead load: on a node, or on each node of a group, on a body, as a traction on a beam or a surface, or as the weight of
+// a solid, a beam or a body.
 struct Load {
   std::string node;
   double fx = 0.0;  // [force], per unit of the load factor unless constant
@@ -182,6 +199,12 @@ struct Load {
   double py = 0.0;
   std::string surface = {};  // in place of node: px and py act on it
   std::string body = {};     // in place of node: fx and fy act on its reference point
+  // Weight of what is named in place of node: per initial volume of a solid [force/length^3], per initial length of the
+  // axis of a beam [force/length], of a body the whole force, which acts on its reference point [force].
+  double bx = 0.0;
+  double by = 0.0;
+  std::string solid = {};
+  std::string beam = {};
 };
 
 template <typename P>
@@ -190,7 +213,8 @@ constexpr auto Fields(Of<Load>) {
                     Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant),
                     Member("moment", &P::moment).In(units::kMomentRate), Member("group", &P::group),
                     Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate),
-                    Member("surface", &P::surface), Member("body", &P::body));
+                    Member("surface", &P::surface), Member("body", &P::body), Member("bx", &P::bx),
+                    Member("by", &P::by), Member("solid", &P::solid), Member("beam", &P::beam));
 }
 
 // Rigid obstacle. A half plane admits the points x with n . (x - p) >= 0. The tangent of any shape is t = (n_y, -n_x).
@@ -208,6 +232,9 @@ struct Obstacle {
   bool closed = false;              // from the last point back to the first
   double fillet = 0.0;  // radius at the corners of a polyline [length]; 0 = a tenth of the largest that its edges admit
   std::string body = {};  // carries it, from where both are at the start
+  // By point of a polyline, in place of `fillet`: the radius at its corner [length]; 0 = as where nothing is given. The
+  // ends of an open polyline have no corner.
+  std::vector<double> fillets = {};
 };
 
 template <typename P>
@@ -218,27 +245,35 @@ constexpr auto Fields(Of<Obstacle>) {
       Member("ny", &P::ny), Member("friction", &P::friction).Within(Range::kNotNegative),
       Member("radius", &P::radius).In(units::kLength).Within(Range::kZeroOrPositive), Member("inside", &P::inside),
       Member("points", &P::points).In(units::kLength), Member("closed", &P::closed),
-      Member("fillet", &P::fillet).In(units::kLength).Within(Range::kZeroOrPositive), Member("body", &P::body));
+      Member("fillet", &P::fillet).In(units::kLength).Within(Range::kZeroOrPositive), Member("body", &P::body),
+      Member("fillets", &P::fillets).In(units::kLength).Within(Range::kZeroOrPositive));
 }
 
-// A node that may touch an obstacle or a surface, or each node of a group. The name of a candidate is
-// "<node>@<obstacle>" or "<node>@<surface>".
+// A node that may touch an obstacle or a surface, or each node of a group; or a circle that a body carries, which rolls
+// or slides on another obstacle. The name of a candidate is "<node>@<obstacle>", "<node>@<surface>" or
+// "<circle>@<obstacle>".
 struct ContactCandidate {
   std::string node;
   std::string obstacle;
   std::string group = {};    // in place of node
   std::string surface = {};  // in place of obstacle
-  double friction = 0.0;     // Coulomb's coefficient with a surface, >= 0; that of an obstacle is its own
+  double friction = 0.0;     // Coulomb's coefficient, >= 0; with an obstacle, 0 = that of the obstacle
+  std::vector<std::string> obstacles = {};  // in place of node and obstacle: the circle, and what it may touch
 
   bool OnSurface() const { return !surface.empty(); }
-  std::string Name() const { return node + "@" + (OnSurface() ? surface : obstacle); }
+  bool Rolls() const { return !obstacles.empty(); }
+  double FrictionWith(const Obstacle& partner) const { return friction > 0.0 ? friction : partner.friction; }
+  std::string Name() const {
+    return (Rolls() ? obstacles.front() : node) + "@" + (OnSurface() ? surface : Rolls() ? obstacles.back() : obstacle);
+  }
 };
 
 template <typename P>
 constexpr auto Fields(Of<ContactCandidate>) {
   return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
                     Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle).OrNone(), Member("group", &P::group),
-                    Member("surface", &P::surface), Member("friction", &P::friction).Within(Range::kNotNegative));
+                    Member("surface", &P::surface), Member("friction", &P::friction).Within(Range::kNotNegative),
+                    Member("obstacles", &P::obstacles).Naming(TextKind::kObstacle));
 }
 
 // Fixes a node besides what the node itself says, or each node of a group.
@@ -312,6 +347,7 @@ struct Scene {
   std::vector<SupportMotion> support_motions;
   std::vector<ObstacleMotion> obstacle_motions;
   std::vector<RigidBody> bodies;
+  std::vector<Tendon> tendons;
 };
 
 template <typename P>
@@ -322,7 +358,7 @@ constexpr auto Fields(Of<Scene>) {
                     Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
                     Member("contacts", &P::contacts), Member("supports", &P::supports),
                     Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
-                    Member("bodies", &P::bodies));
+                    Member("bodies", &P::bodies), Member("tendons", &P::tendons));
 }
 
 // Calls visit(name, list) for each list of elements of a scene, parts that join `nodes` and hold them by forces, in the
@@ -333,6 +369,7 @@ void ForEachElementList(const Scene& scene, Visit&& visit) {
   visit("superelements", scene.superelements);
   visit("beams", scene.beams);
   visit("solids", scene.solids);
+  visit("tendons", scene.tendons);
 }
 
 // A part of a load program. Its load factor goes from 0 to `target`; then the stage leaves its loads and motions on,

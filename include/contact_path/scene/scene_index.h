@@ -25,7 +25,8 @@ class ElementNames {
 
   std::size_t NumSections() const { return num_sections_; }
   std::size_t NumElements() const { return num_elements_; }
-  bool IsBar(std::size_t section) const { return section < num_bars_; }
+  // Of a bar or a tendon, which has N alone.
+  bool HasOnlyN(std::size_t section) const { return section < num_bars_ || section >= first_tendon_; }
   std::string SectionName(std::size_t section) const;
   std::string ElementName(std::size_t element) const;
   // Nothing for a name that the scene does not have.
@@ -41,8 +42,8 @@ class ElementNames {
   static std::string NameIn(const std::vector<Part>& parts, std::size_t number);
   static std::optional<std::size_t> FindIn(const std::vector<Part>& parts, std::string_view name);
 
-  std::size_t num_bars_, num_sections_, num_elements_ = 0;
-  std::vector<Part> beams_, solids_;
+  std::size_t num_bars_, num_sections_, first_tendon_ = 0, num_elements_ = 0;
+  std::vector<Part> chains_, solids_;  // chains_: beams and tendons
 };
 
 // A node with a fixed component.

@@ -27,6 +27,10 @@ ShapeFault FindShapeFault(const Obstacle& obstacle);
 // has a finite length, so that it can be drawn.
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);
 
+// The boundary on which the centre of a circle of this radius [length] moves that rolls or slides on a half plane or a
+// circle: at the distance of the radius.
+Obstacle WhereCentresMove(Obstacle obstacle, double radius);
+
 // Whether a node can move along an obstacle: one of its components that move, being free or moved as a support, has a
 // share in the tangent by more than rounding. A contact that cannot slide is frictionless, whatever its coefficient.
 // turns: the obstacle does, and its tangent with it.

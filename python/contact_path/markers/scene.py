@@ -195,7 +195,7 @@ class SceneMarkers:
             state.update(zip((axis + name for name in structure.names), values))
         for name, of in zip(structure.contacts, increment.contacts):
             state.update({'state_' + name: STATES[of.state], 'gap_' + name: of.gap, 'rn_' + name: of.rn, 'rt_' + name: of.rt})
-        for name, bar in zip(structure.one_sided.values(), getattr(increment, 'bars', ())):
+        for name, bar in zip(dict.fromkeys(structure.one_sided.values()), getattr(increment, 'bars', ())):
             state['state_' + name] = BAR_STATES[bar]
         if structure.solids:
             alone = Increments({name: np.array([value]) for name, value in {**state, 'stage': increment.stage}.items()}, scene=self.scene)

@@ -17,7 +17,7 @@ from contact_path.structure.surfaces import SurfaceCurve
 Increment = Mapping[str, Any]  # an increment, as Path.increment gives it
 
 # Lists whose entries have nodes and are no elements, or elements with a look of their own.
-DRAWN_APART = ('bars', 'superelements', 'beams', 'solids', 'groups', 'surfaces')
+DRAWN_APART = ('bars', 'superelements', 'beams', 'solids', 'groups', 'surfaces', 'tendons')
 
 
 class Stage(NamedTuple):
@@ -52,10 +52,17 @@ class Structure:
         # Of those that bear in one sense alone: index and name.
         one_sided = (i for i, bar in enumerate(scene['bars']) if bar['sense'] not in ('', 'both'))
         self.one_sided = dict(zip(one_sided, names.get('bars', ())))
+        # A tendon is drawn as the bars of its pieces.
+        tendons = scene.get('tendons', [])
+        pieces = [(name, pair) for name, tendon in zip(names.get('bars', ())[len(self.one_sided):], tendons)
+                  for pair in zip(tendon['nodes'], tendon['nodes'][1:])]
+        self.one_sided.update({len(bars) + i: name for i, (name, _) in enumerate(pieces)})
+        bars += [pair for _, pair in pieces]
+        self.bar_names += names['sections'][len(names['sections']) - len(pieces):]
         bars += [nodes for nodes in further if len(nodes) == 2]
         self.bar_names += [''] * (len(bars) - len(self.bar_names))
         self.bars = np.array([[index[name] for name in nodes] for nodes in bars], dtype=int).reshape(-1, 2)
-        self.beams = Beams(scene['beams'], names['sections'][len(scene['bars']):], index, self.initial)
+        self.beams = Beams(scene['beams'], names['sections'][len(scene['bars']):len(names['sections']) - len(pieces)], index, self.initial)
         elements = iter(names['elements'])
         self.solids = [Solid(solid, index, elements) for solid in scene['solids']]
         self.bar_directions = self.find_bar_directions()

@@ -14,13 +14,14 @@ def parts_of(traced: Mapping[str, Any]) -> Dict[str, Parts]:
     """List of increments -> for each of its entries the name of the part, and which of its fields are columns; in the order of the CSV.
     traced: as expanded() gives it."""
     names, bars = traced['names'], len(traced['scene']['bars'])
+    tendons = len(names['sections']) - sum(len(tendon['nodes']) - 1 for tendon in traced['scene'].get('tendons', []))
     supports = [(support['node'], [axis for axis, component in zip(REACTIONS, ('x', 'y', 'rotation')) if support[component]])
                 for support in names['supports']]
     # A boundary with the name of a supported node has no columns beside those of the node.
     taken = {name for name, _ in supports}
     return {'supports': supports,
             'boundaries': [(of['name'], [] if of['name'] in taken else REACTIONS) for of in names['boundaries']],
-            'sections': [(name, SECTIONS[:1] if i < bars else SECTIONS) for i, name in enumerate(names['sections'])],
+            'sections': [(name, SECTIONS if bars <= i < tendons else SECTIONS[:1]) for i, name in enumerate(names['sections'])],
             'stresses': [(name, STRESSES) for name in names['elements']],
             'pressures': [(name, PRESSURES) for name in names['contacts']],
             'widths': [(of['name'], ('width',)) for of in names['boundaries']]}
