@@ -131,7 +131,7 @@ contact_path_add_stage(geometry NAMES admissible_patches_test capsule_tree_test 
   spline_test surface_test)
 contact_path_add_stage(scene NAMES boundary_rules_test can_slide_test cell_test change_units_test curve_rules_test
   element_names_test expand_test field_test nearest_name_test text_test origin_test quantity_test
-  reacting_parts_test read_scene_test request_field_test scaling_test scene_test solid_rules_test
+  part_rules_test reacting_parts_test read_scene_test request_field_test scaling_test scene_test solid_rules_test
   validate_test violation_test write_scene_test)
 contact_path_add_stage(structure NAMES attached_element_test bar_test beam_test elastica_test material_test solid_test
   structure_test)
@@ -161,9 +161,9 @@ contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_t
   determinism_test diagnosis_test end_test frames_on_curves_test free_motion_test hard_scenes_test increment_lists_test
   invariance_test jump_paths_test turning_paths_test large_requests_test largest_reaction_test model_size_test model_test
   mpec_cases_test mpec_method_test mpec_random_paths_test own_surface_test parts_on_contacts_test path_summary_test
-  polygon_disc_test preload_test program_test progress_estimate_test redistribution_test restored_states_test resume_test
+  polygon_disc_test preload_test program_test progress_estimate_test redistribution_test restored_states_test resume_test rolling_test
   return_detector_test samples_test singular_scenes_test sizes_test slack_bars_test small_and_stiff_test solid_paths_test stop_test
-  surface_scenes_test total_law_test trace_test)
+  surface_scenes_test tendons_test total_law_test trace_test)
 contact_path_add_stage(study NAMES path_column_test study_outputs_test)
 contact_path_add_stage(verify LONG SHARDS 2 NAMES verify_end_test verify_events_test verify_path_test)
 contact_path_add_stage(cli NAMES event_table_test progress_test)

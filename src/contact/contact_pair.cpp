@@ -20,7 +20,7 @@ double ContactPair::Xi(const Eigen::VectorXd& u, double s, int patch) const {
 
 double ContactPair::Motion(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
                            const PortReals& reference) const {
-  return port == kNormal ? Gap(u, s, patch) : Law::Motion(port, u, s, patch, reference);
+  return port == kNormal ? Gap(u, s, patch) - reference[kNormal] : Law::Motion(port, u, s, patch, reference);
 }
 
 double ContactPair::SlipReference(const Eigen::VectorXd& u, double s, int patch) const {

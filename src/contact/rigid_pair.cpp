@@ -84,7 +84,7 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const Po
   ports->dofs = OwnDofs();
   PortAt &gap = (*ports)[kNormal], &xi = (*ports)[kTangent];
   if (!Curved()) {
-    gap.motion = gap_offset_ + ports->Rate(gap_gradient_, u, s);
+    gap.motion = gap_offset_ - reference[kNormal] + ports->Rate(gap_gradient_, u, s);
     xi.motion = xi_offset_ - reference[kTangent] + ports->Rate(xi_gradient_, u, s);
     gap.gradient = gap_gradient_;
     xi.gradient = xi_gradient_;
@@ -92,7 +92,7 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const Po
   }
   const PlaceAt place(place_, u, s);
   const Projection at = surface_->Project(place.x, NearestKnown(KnownPatch(u, s, patch)));
-  gap.motion = at.gap;
+  gap.motion = at.gap - reference[kNormal];
   xi.motion = at.xi - reference[kTangent] + ports->Rate(roll_, u, s);
   gap.gradient = place.first.transpose() * at.normal;
   xi.gradient = place.first.transpose() * XiGradient(at) + roll_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/geometry/point_curves.h"
+#include "support/curved_obstacles.h"
 #include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"
@@ -144,7 +145,7 @@ TEST_F(RigidPairs, WhatTurnsAndMovesWithTheObstacleStaysOnItsSurface) {
 
 // Before the first patch and after the last one there is nothing to touch, and the end is what is near.
 TEST_F(RigidPairs, PastTheEndsOfAnOpenSurfaceTheGapIsTheDistanceFromTheEnd) {
-  const std::shared_ptr<const Surface> line = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
+  const std::shared_ptr<const Surface> line = RoundedPolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
   const RigidPair pair(line, MovingPlace(PointOfNode(0, 1)), 0.3);
   EXPECT_TRUE(pair.HasPatches());
   const Eigen::VectorXd before = Eigen::Vector2d(-0.3, 0.4), on = Eigen::Vector2d(0.3, 0.4),
@@ -163,7 +164,7 @@ TEST_F(RigidPairs, PastTheEndsOfAnOpenSurfaceTheGapIsTheDistanceFromTheEnd) {
 }
 
 TEST_F(RigidPairs, SlipRunsOnOverPatches) {
-  const std::shared_ptr<const Surface> line = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
+  const std::shared_ptr<const Surface> line = RoundedPolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
   const RigidPair pair(line, MovingPlace(PointOfNode(0, 1)), 0.3);
   const Eigen::VectorXd from = Eigen::Vector2d(0.2, 0.0), to = Eigen::Vector2d(2.0, 0.5);
   const double turn = std::atan(0.5), cut = 0.2 * std::tan(0.5 * turn);

@@ -7,6 +7,7 @@
 
 #include "contact_path/geometry/curve.h"
 #include "contact_path/geometry/point_curves.h"
+#include "support/curved_obstacles.h"
 
 namespace contact_path::outline_test {
 namespace {
@@ -40,7 +41,7 @@ TEST(Outline, IsOnACircleWithSmallTurns) {
 
 TEST(Outline, HasTheEndsOfEdgesAlone) {
   const PlanePoints corner = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 3.0}};
-  const auto polyline = MakePolyline(corner, false, 0.5);
+  const auto polyline = RoundedPolyline(corner, false, 0.5);
   const std::vector<OutlinePoint> points = Outline(*polyline, {8});
   ASSERT_EQ(points.size(), 11U);
   EXPECT_EQ(points.front().place, corner.front());
@@ -49,7 +50,7 @@ TEST(Outline, HasTheEndsOfEdgesAlone) {
   EXPECT_NEAR((points.back().place - corner.back()).norm(), 0.0, kRounding);
   EXPECT_NEAR(points.back().xi, 1.5 + 0.25 * kPi + 2.5, kRounding);
   // Fillets that leave nothing of the edge between them.
-  const auto bend = MakePolyline({{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}}, false, 0.5);
+  const auto bend = RoundedPolyline({{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}}, false, 0.5);
   for (const OutlinePoint& point : Outline(*bend, {8}))
     EXPECT_TRUE(point.place.x() <= 1.5 || (point.place - Vector2d(1.5, 0.5)).norm() < 0.5 + kRounding);
   EXPECT_EQ(Outline(*bend, {8}).size(), 1U + 1U + 8U + 8U + 1U);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "support/curved_obstacles.h"
 #include "support/surface_checks.h"
 
 namespace contact_path::polyline_test {
@@ -23,13 +24,13 @@ const PlanePoints kBox = {{0.0, 0.0}, {3.0, 0.0}, {3.0, 2.0}, {0.0, 2.0}};
 const PlanePoints kBlock = {{0.0, 0.0}, {0.0, 2.0}, {3.0, 2.0}, {3.0, 0.0}};
 
 TEST(Polyline, HasFeetBesideItsEdgesAndFillets) {
-  const auto open = MakePolyline(kSteps, false, 0.3);
+  const auto open = RoundedPolyline(kSteps, false, 0.3);
   EXPECT_EQ(open->NumPatches(), 5);
   ExpectFeet(*open, 0.2, 1e-13);
   ExpectContinuity(*open, false, kRounding);
   ExpectDerivatives(*open, 0.1, 0.02);
   for (const PlanePoints& points : {kBox, kBlock}) {
-    const auto closed = MakePolyline(points, true, 0.25);
+    const auto closed = RoundedPolyline(points, true, 0.25);
     EXPECT_EQ(closed->NumPatches(), 8);
     ExpectFeet(*closed, 0.2, 1e-13);
     ExpectContinuity(*closed, false, kRounding);
@@ -39,17 +40,17 @@ TEST(Polyline, HasFeetBesideItsEdgesAndFillets) {
 }
 
 TEST(Polyline, TurnsItsAdmissibleSideToTheLeft) {
-  EXPECT_NEAR(MakePolyline(kBox, true, 0.1)->ProjectOnNearest({1.5, 0.5}).gap, 0.5, kRounding);
-  EXPECT_NEAR(MakePolyline(kBlock, true, 0.1)->ProjectOnNearest({1.5, 0.5}).gap, -0.5, kRounding);
-  EXPECT_NEAR(MakePolyline(kSteps, false, 0.1)->ProjectOnNearest({1.0, 1.5}).gap, 0.5, kRounding);
+  EXPECT_NEAR(RoundedPolyline(kBox, true, 0.1)->ProjectOnNearest({1.5, 0.5}).gap, 0.5, kRounding);
+  EXPECT_NEAR(RoundedPolyline(kBlock, true, 0.1)->ProjectOnNearest({1.5, 0.5}).gap, -0.5, kRounding);
+  EXPECT_NEAR(RoundedPolyline(kSteps, false, 0.1)->ProjectOnNearest({1.0, 1.5}).gap, 0.5, kRounding);
   // A corner to the right is convex, one to the left hollow.
-  const auto steps = MakePolyline(kSteps, false, 0.1);
+  const auto steps = RoundedPolyline(kSteps, false, 0.1);
   EXPECT_NEAR(steps->Project({2.0, 1.0}, 1).curvature, -10.0, 1e-12);
   EXPECT_NEAR(steps->Project({2.5, -0.5}, 3).curvature, 10.0, 1e-12);
 }
 
 TEST(Polyline, EndsAtItsFirstAndLastPoint) {
-  const auto open = MakePolyline(kSteps, false, 0.3);
+  const auto open = RoundedPolyline(kSteps, false, 0.3);
   EXPECT_EQ(open->PointAt(0.0), kSteps.front());
   EXPECT_NEAR((open->PointAt(open->Length()) - kSteps.back()).norm(), 0.0, kRounding);
   const NearestFoot before = open->Nearest({-0.3, 1.4}), past = open->Nearest({5.3, 0.4});
@@ -60,7 +61,7 @@ TEST(Polyline, EndsAtItsFirstAndLastPoint) {
 }
 
 TEST(Polyline, PointsInLineNeedNoFillet) {
-  const auto straight = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {4.0, 0.0}}, false, 100.0);
+  const auto straight = RoundedPolyline({{0.0, 0.0}, {1.0, 0.0}, {4.0, 0.0}}, false, 100.0);
   EXPECT_EQ(straight->NumPatches(), 2);
   EXPECT_EQ(LargestFillet({{0.0, 0.0}, {1.0, 0.0}, {4.0, 0.0}}, false), std::numeric_limits<double>::infinity());
 }
@@ -73,7 +74,7 @@ TEST(Polyline, TheLargestFilletUsesUpItsEdges) {
     points.push_back({std::sin(2.0 * kPi * i / kCorners), std::cos(2.0 * kPi * i / kCorners)});
   const double inscribed = std::cos(kPi / kCorners);
   EXPECT_NEAR(LargestFillet(points, true), inscribed, 1e-13);
-  const auto circle = MakePolyline(points, true, LargestFillet(points, true));
+  const auto circle = RoundedPolyline(points, true, LargestFillet(points, true));
   EXPECT_NEAR(circle->Length(), 2.0 * kPi * inscribed, 1e-12);
   for (double angle = 0.0; angle < 6.0; angle += 0.1)
     EXPECT_NEAR(circle->ProjectOnNearest({2.0 * std::sin(angle), 2.0 * std::cos(angle)}).gap, 2.0 - inscribed, 1e-13);
@@ -85,7 +86,7 @@ TEST(Polyline, TheLargestFilletUsesUpItsEdges) {
 
 TEST(Polyline, FilletsOfAlmostStraightCornersAreContinuous) {
   for (const double turn : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    const auto bent = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {2.0, turn}}, false, 0.1);
+    const auto bent = RoundedPolyline({{0.0, 0.0}, {1.0, 0.0}, {2.0, turn}}, false, 0.1);
     EXPECT_EQ(bent->NumPatches(), 3);
     ExpectContinuity(*bent, false, kRounding);
   }
@@ -94,7 +95,7 @@ TEST(Polyline, FilletsOfAlmostStraightCornersAreContinuous) {
 // The place of a point is known to rounding, and so is its direction from the centre of a small fillet.
 TEST(Polyline, SmallFilletsAreAsExactAsThePlaceOfAPoint) {
   for (const double fillet : {1e-9, 1e-6, 1e-3})
-    ExpectContinuity(*MakePolyline(kSteps, false, fillet), false, 0.1 * kRounding / fillet);
+    ExpectContinuity(*RoundedPolyline(kSteps, false, fillet), false, 0.1 * kRounding / fillet);
 }
 
 TEST(Polyline, EqualPointsAreFound) {

@@ -76,11 +76,11 @@ TEST(Expand, LoadsAndContactsOfGroups) {
   EXPECT_EQ(loads[3].node, "beam2/1");
   EXPECT_EQ(loads[3].fy, -1.5);
   EXPECT_TRUE(loads[3].constant);
-  EXPECT_EQ(expansion.loads[0], (Places{0, 0, 1, 1, 1, 2}));
+  EXPECT_EQ(expansion.loads[0], (ListPlaces{0, 0, 1, 1, 1, 2}));
   // The first node of the leg is fixed.
   ASSERT_EQ(expansion.request.scene.contacts.size(), 5u);
   EXPECT_EQ(expansion.request.scene.contacts[2].Name(), "leg/3@floor");
-  EXPECT_EQ(expansion.contacts, (Places{0, 0, 0, 0, 1}));
+  EXPECT_EQ(expansion.contacts, (ListPlaces{0, 0, 0, 0, 1}));
 }
 
 // A traction of 6 along the edge of an element of 6 nodes: by its shape functions, a sixth of the resultant on each
@@ -129,7 +129,7 @@ TEST(Expand, SupportsAndTheirMotionsOfGroups) {
   EXPECT_EQ(scene.support_motions[2].node, "leg/2");
   EXPECT_EQ(scene.support_motions[2].dy, 1.0);
   EXPECT_EQ(scene.support_motions[2].rotation, 0.5);
-  EXPECT_EQ(expansion.motions[0], (Places{0, 1, 1}));
+  EXPECT_EQ(expansion.motions[0], (ListPlaces{0, 1, 1}));
   // The same of a stage.
   TraceRequest program = request;
   program.scene.loads.clear();

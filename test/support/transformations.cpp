@@ -56,6 +56,7 @@ void TransformRequest(TraceRequest* request, Map map) {
     for (Load& load : *loads) {
       map(&load.fx, &load.fy);
       map(&load.px, &load.py);
+      map(&load.bx, &load.by);
     }
     for (SupportMotion& motion : *supports) map(&motion.dx, &motion.dy);
     for (ObstacleMotion& motion : *obstacles) {
@@ -215,6 +216,7 @@ TraceRequest Reverse(TraceRequest request) {
   std::reverse(scene.nodes.begin(), scene.nodes.end());
   std::reverse(scene.bodies.begin(), scene.bodies.end());
   std::reverse(scene.bars.begin(), scene.bars.end());
+  std::reverse(scene.tendons.begin(), scene.tendons.end());
   std::reverse(scene.superelements.begin(), scene.superelements.end());
   std::reverse(scene.beams.begin(), scene.beams.end());
   std::reverse(scene.materials.begin(), scene.materials.end());
@@ -233,6 +235,7 @@ TraceRequest Reverse(TraceRequest request) {
   for (BoundarySurface& surface : scene.surfaces)
     for (std::string& node : surface.nodes) node = FromOtherEnd(node, scene.beams);
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
+  for (Tendon& tendon : scene.tendons) std::reverse(tendon.nodes.begin(), tendon.nodes.end());
   for (Beam& beam : scene.beams) {
     std::reverse(beam.nodes.begin(), beam.nodes.end());
     std::reverse(beam.hinged.begin(), beam.hinged.end());

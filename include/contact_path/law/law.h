@@ -73,8 +73,9 @@ struct Ray {
 
 // A law does not change: mode, forces and memory are of the point of the path. Its memory is a reference for each port,
 // the motion from which the port's motion is measured; at the start of an arc it is a function of the place, and 0
-// where the port gives way. The engine relies on this: one state is idle; port 0 is a gap, with a force >= 0, without a
-// reference, and held wherever a port follows; it does not dissipate. Ratios and compliances are constants of a state.
+// where the port gives way by a compliance of its own. The engine relies on this: one state is idle; port 0 is a gap,
+// with a force >= 0, without a reference but that of ReferenceOf(), and held wherever a port follows; it does not
+// dissipate. Ratios and compliances are constants of a state.
 // q stands for (dofs, s) throughout: m + 1 entries with m = Dofs(piece).size() <= kMostLawDofs, the load factor last. u
 // may have more entries than dofs.
 class Law {
@@ -146,7 +147,8 @@ class Law {
 
   // References at a place from which an arc sets out.
   virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;
-  // The same for the equations of ports that are held with these forces.
+  // The same for the equations of ports that are held with these forces. Where compliances are not its own, the gap of a
+  // law that touches to rounding is the reference of port 0: forces begin at nothing there.
   PortReals ReferenceOf(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const;
   // How far an idle law is from its limit, for the search of what an increment may reach.
   virtual double Reach(const Eigen::VectorXd& u, double s) const = 0;

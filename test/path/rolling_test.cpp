@@ -1,0 +1,145 @@
+// Circles of bodies that roll and slide, in closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/trace.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path::rolling_test {
+namespace {
+
+constexpr double kExact = 5e-8;  // contacts of bodies give way by 1e-8 of their forces
+
+Load OfBody(const std::string& body, double by, bool constant) {
+  Load load;
+  load.body = body;
+  load.by = by;
+  load.constant = constant;
+  return load;
+}
+
+ContactCandidate Rolls(const std::string& circle, const std::string& partner) {
+  ContactCandidate contact;
+  contact.obstacles = {circle, partner};
+  return contact;
+}
+
+// A disc of the weight 1 and this radius at a place, with its rim.
+void AddDisc(const std::string& name, double x, double y, double radius, double friction, Scene* scene) {
+  scene->bodies.push_back({name, x, y});
+  Obstacle rim{"rim_" + name, ObstacleShape::kCircle, x, y, 0.0, 0.0, friction, radius};
+  rim.body = name;
+  scene->obstacles.push_back(rim);
+}
+
+Obstacle Floor(double friction) { return {"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}; }
+
+// On a floor, held by a spring k at its centre, under a moment M: it rolls by x = M / (k r) and turns by -x / r, and
+// slips at M = mu W r. Friction of the contact stands before that of the floor.
+TEST(Rolling, ADiscRollsUntilItSlips) {
+  for (const double radius : {1e-3, 1.0, 1e3})
+    for (const double friction : {0.05, 0.4}) {
+      SCOPED_TRACE(testing::Message() << "radius " << radius << ", mu " << friction);
+      constexpr double kStiffness = 2.0;
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "rolling_disc";
+      AddDisc("disc", 0.0, radius, radius, 0.0, &scene);
+      scene.nodes = {{"hub", 0.0, radius}};
+      scene.nodes[0].body = "disc";
+      scene.superelements = {{{"hub"}, {kStiffness / radius, 0.0, 0.0, 0.0}}};
+      scene.obstacles.push_back(Floor(0.9));
+      scene.contacts = {Rolls("rim_disc", "floor")};
+      scene.contacts[0].friction = friction;
+      Load moment;
+      moment.body = "disc";
+      moment.moment = -radius;
+      scene.loads = {OfBody("disc", -1.0, true), moment};
+      request.options.max_increments = 60;
+      const TracedPath path = TraceIncrements(request);
+      double largest = 0.0;
+      for (const Increment& increment : path.increments) {
+        largest = std::max(largest, increment.load_factor);
+        const double x = increment.positions[0] / radius;
+        EXPECT_NEAR(x, increment.load_factor / kStiffness, kExact);
+        if (increment.contacts[0].state == ContactState::kStick) EXPECT_NEAR(increment.rotations.back(), -x, kExact);
+      }
+      EXPECT_NEAR(largest, friction, kExact) << path.result.message;
+      ExpectNoFindings(path);
+    }
+}
+
+// Round a drum of the radius R: where its centre has gone round by phi, the disc has turned by (1 + R / r) phi; within a
+// drum by (1 - R / r) phi.
+TEST(Rolling, ADiscRollsRoundADrum) {
+  for (const bool inside : {false, true})
+    for (const double drum : {1.5, 40.0}) {
+      SCOPED_TRACE(testing::Message() << (inside ? "inside " : "outside ") << drum);
+      const double radius = 0.5, away = inside ? radius - drum : drum + radius;
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "round_a_drum";
+      AddDisc("disc", 0.0, away, radius, 0.0, &scene);
+      scene.nodes = {{"hub", 0.0, away}, {"wall", 3.0, away, true, true}};
+      scene.nodes[0].body = "disc";
+      scene.bars = {{{"hub", "wall"}, 5.0}};
+      scene.obstacles.push_back({"drum", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, 2.0, drum});
+      scene.obstacles.back().inside = inside;
+      scene.contacts = {Rolls("rim_disc", "drum")};
+      Load moment;
+      moment.body = "disc";
+      moment.moment = -0.5;
+      scene.loads = {OfBody("disc", -1.0, true), moment};
+      request.options.max_increments = 20;
+      const TracedPath path = TraceIncrements(request);
+      ASSERT_GT(path.increments.size(), 10U) << path.result.message;
+      double farthest = 0.0;
+      for (const Increment& increment : path.increments) {
+        if (increment.contacts[0].state != ContactState::kStick) break;
+        const double x = increment.positions[increment.positions.size() - 2], y = increment.positions.back();
+        const double phi = inside ? std::atan2(x, -y) : std::atan2(-x, y);
+        EXPECT_NEAR(increment.rotations.back(), (1.0 + (inside ? -drum : drum) / radius) * phi, 10.0 * kExact);
+        farthest = std::max(farthest, std::abs(x));
+      }
+      EXPECT_GT(farthest, 0.02);
+      ExpectNoFindings(path);
+    }
+}
+
+// Two discs on a floor beside each other bear a third one as long as friction between discs is at least tan 15 degrees
+// and that of the floor (2 - sqrt 3) / 3.
+TEST(Rolling, ThreeDiscsHoldByFriction) {
+  const double between = std::tan(M_PI / 12.0), floor = (2.0 - std::sqrt(3.0)) / 3.0;
+  for (const double radius : {0.01, 1.0})
+    for (const auto& [of_discs, of_floor, holds] :
+         {std::tuple(1.001, 1.5, true), std::tuple(1.5, 1.001, true), std::tuple(0.999, 1.5, false),
+          std::tuple(1.5, 0.999, false)}) {
+      SCOPED_TRACE(testing::Message() << "radius " << radius << ", " << of_discs << ", " << of_floor);
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "three_discs";
+      AddDisc("a", -radius, radius, radius, of_discs * between, &scene);
+      AddDisc("b", radius, radius, radius, of_discs * between, &scene);
+      AddDisc("c", 0.0, (1.0 + std::sqrt(3.0)) * radius, radius, 0.0, &scene);
+      scene.obstacles.push_back(Floor(of_floor * floor));
+      scene.contacts = {Rolls("rim_a", "floor"), Rolls("rim_b", "floor"), Rolls("rim_c", "rim_a"),
+                        Rolls("rim_c", "rim_b")};
+      for (const RigidBody& body : scene.bodies) scene.loads.push_back(OfBody(body.name, -1.0, false));
+      request.options.stop = {{"load_factor", ">", 2.0}};
+      const TracedPath path = TraceIncrements(request);
+      ASSERT_FALSE(path.increments.empty()) << path.result.message;
+      if (holds)
+        EXPECT_NEAR(path.increments.back().load_factor, 2.0, kExact) << path.result.message;
+      else
+        EXPECT_LT(path.increments.back().load_factor, kExact) << path.result.message;
+      ExpectNoFindings(path);
+    }
+}
+
+}  // namespace
+}  // namespace contact_path::rolling_test
