@@ -214,7 +214,10 @@ Part OnNode(Part part) {
 
 ListPlaces ExpandContacts(const Groups& groups, Scene* scene) {
   return ExpandList(&scene->contacts, [&](const ContactCandidate& contact, auto&& add) {
-    if (const Obstacle* const circle = RollingCircle(contact, *scene)) {
+    const auto is_partner = [&](const Obstacle& of) { return of.name == contact.obstacles[1]; };
+    if (const Obstacle* const circle = RollingCircle(contact, *scene);
+        circle != nullptr && contact.obstacles.size() == 2 &&
+        std::any_of(scene->obstacles.begin(), scene->obstacles.end(), is_partner)) {
       ContactCandidate rolling = contact;
       rolling.node = CentreNode(*circle, *scene);
       rolling.obstacle = contact.obstacles.back();

@@ -19,7 +19,7 @@ constexpr double kCancelled = 1e-12;
 constexpr double kWrittenRounding = 1e-9;
 
 // The most unknowns that may move the nodes of one tendon: kMostLawDofs (structure/local_vector.h).
-constexpr std::size_t kMostTendonUnknowns = 24;
+constexpr std::size_t kMostTendonUnknowns = 12;
 
 }  // namespace contact_path
 

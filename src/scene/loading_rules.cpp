@@ -30,7 +30,8 @@ LoadingRules::LoadingRules(Checker* checker) : checker_(*checker), scene_(checke
     contact_nodes_.insert(contact.node);
     const Node* const node = checker_.KnownNode(contact.node);
     const Obstacle* const obstacle = checker_.KnownObstacle(contact.obstacle);
-    if (node != nullptr && obstacle != nullptr && !CanSlide(!node->fixed_x, !node->fixed_y, *obstacle))
+    if (node != nullptr && obstacle != nullptr && contact.FrictionWith(*obstacle) > 0.0 && !contact.Rolls() &&
+        !CanSlide(!node->fixed_x, !node->fixed_y, *obstacle))
       held_.emplace(obstacle, node);
     if (contact.OnSurface()) touched.insert(contact.surface);
   }
@@ -232,7 +233,7 @@ void LoadingRules::CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion
   const double norm = std::hypot(obstacle.nx, obstacle.ny);
   const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
   // Not along a normal, nor along one that turns: its candidates can follow.
-  if (!(obstacle.friction > 0.0) || !(along > kCancelled * std::hypot(motion.dx, motion.dy))) return;
+  if (!(along > kCancelled * std::hypot(motion.dx, motion.dy))) return;
   const auto held = held_.find(&obstacle);
   if (held != held_.end())
     checker_.Add(path.Key("obstacle"), motion.obstacle,

@@ -63,9 +63,6 @@ void CheckOptions(Checker* checker) {
       std::any_of(contacts.begin(), contacts.end(),
                   [](const auto& contact) { return contact.OnSurface() && contact.friction > 0.0; }))
     checker->Add(path.Key("friction_law"), "total", "must be incremental where a contact with a surface has friction");
-  if (options.friction_law == FrictionLaw::kTotal &&
-      std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.Rolls(); }))
-    checker->Add(path.Key("friction_law"), "total", "must be incremental where a circle rolls");
   if (!options.LocatesEvents() && !options.branch_choices.empty())
     checker->Add(choices, "", "must be empty with method mpec, which does not find the branches of an event");
   for (std::size_t i = 0; i < options.branch_choices.size(); ++i) {

@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 // Points of bodies seen by what is at rest, by an obstacle that moves, and by one that another body carries; strings
-// between all of them.
+// between all of them, and circles about them that roll.
 TEST(MovingPlace, GivesLawsTheirDerivatives) {
   const MovingFrame body = {{Coordinate{2}, Coordinate{3}}, {4}, Vector2d::Zero(), {0.3, 0.1}},
                     other = {{Coordinate{0}, Coordinate{-1, 0.4, 0.2}}, {1}, Vector2d::Zero(), {-0.2, 0.5}};
@@ -32,10 +32,14 @@ TEST(MovingPlace, GivesLawsTheirDerivatives) {
   for (const std::shared_ptr<const Surface>& surface : {spline, plane})
     for (const MovingFrame& frame : {MovedFrame({0.0, 0.0}), MovedFrame({0.2, -0.1}, 0.7, {0.4, 0.3}), other})
       for (const FixedPoint& of : {point, node})
-        laws.push_back(std::make_unique<RigidPair>(surface, MovingPlace::SeenFrom(frame, of), 0.3));
-  for (const FixedPoint& to : {node, FixedPoint{other, {0.1, 0.9}}})
-    laws.push_back(std::make_unique<SlackBar>(MovingPlace::Between(point, to), 1.3, 0.4, StrainMeasure::kBiot,
-                                              BarSense::kTension));
+        for (const double radius : {0.0, 0.4})
+          laws.push_back(std::make_unique<RigidPair>(surface, MovingPlace::SeenFrom(frame, of), 0.3, VectorXd(),
+                                                     std::nullopt, 0.0, Rolling{radius, of.frame.angle, frame.angle}));
+  const FixedPoint to{other, {0.1, 0.9}};
+  const MovingPlace first = MovingPlace::Between(node, point), second = MovingPlace::Between(point, to),
+                    third = MovingPlace::Between(to, node);
+  for (const std::vector<MovingPlace>& spans : {std::vector{first}, {second}, {first, second, third}})
+    laws.push_back(std::make_unique<SlackBar>(spans, 1.3, 0.4, StrainMeasure::kBiot, BarSense::kTension));
   Random random(3);
   VectorXd x(8);  // u, s
   x << 0.3, 0.4, 0.2, 1.1, -0.5, 0.9, 1.4, 0.3;

@@ -62,12 +62,6 @@ INSTANTIATE_TEST_SUITE_P(
                    },
                    "scene.contacts[0].obstacle", "\"\"",
                    "must name an obstacle of the scene where there is no surface"},
-        BrokenRule{"FrictionOfObstacle",
-                   [](auto& r) {
-                     FirstContact(r).surface.clear();
-                     FirstContact(r).obstacle = "floor";
-                   },
-                   "scene.contacts[0].friction", "0.3", "must be 0 where there is no surface"},
         BrokenRule{"FrictionNegative", [](auto& r) { FirstContact(r).friction = -0.1; }, "scene.contacts[0].friction",
                    "-0.1", "must be >= 0"},
         BrokenRule{"Repeated", [](auto& r) { r.scene.contacts.push_back(FirstContact(r)); }, "scene.contacts[1]",

@@ -83,7 +83,7 @@ const BrokenRule kRules[] = {
     {"WeightOfNothing", [](auto& r) { r.scene.loads[0] = {"n3"}; r.scene.loads[0].bx = 1.0; }, "scene.loads[0].bx",
      "1", "must be 0: a weight needs a solid, a beam or a body"},
     {"TotalLaw", [](auto& r) { r.options.friction_law = FrictionLaw::kTotal; }, "options.friction_law", "total",
-     "must be incremental where a circle rolls"},
+     "must be incremental where a body carries an obstacle"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Rules, PartRulesTest, testing::ValuesIn(kRules), NameOf<BrokenRule>);

@@ -143,6 +143,12 @@ TraceRequest ChangeUnits(TraceRequest request, double length, double force) {
   const UnitSizes sizes = {1.0 / length, 1.0 / force, 1.0};
   for (Solid& solid : request.scene.solids) solid.thickness = solid.Thickness();  // 0 is 1 in any unit
   ChangeUnits(&request, sizes);
+  // The unit of a weight depends on what has it.
+  ForEachLoading(&request, [&](auto* loads, auto*, auto*) {
+    for (Load& load : *loads)
+      for (double* const weight : {&load.bx, &load.by})
+        *weight *= force / (load.solid.empty() ? load.beam.empty() ? 1.0 : length : std::pow(length, 3));
+  });
   for (StopCriterion& criterion : request.options.stop)
     criterion.value /= SizeOf(UnitOf(ReadQuantity(criterion.quantity)->kind), sizes);
   return request;

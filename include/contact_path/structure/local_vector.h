@@ -10,7 +10,7 @@
 namespace contact_path {
 
 // The most unknowns that move one law, or one place.
-inline constexpr int kMostLawDofs = 24;
+inline constexpr int kMostLawDofs = 12;
 
 // Unknowns that move a law or a place, as numbers into u, ascending. No allocation.
 class LawDofs {

@@ -99,7 +99,7 @@ class Structure:
                         for name, surface in self.surfaces.items()
                         for own in [np.flatnonzero(np.array(self.contact_surfaces) == name)]}
         self.contacts = names['contacts']
-        self.friction = np.array([contact['friction'] if contact['surface'] else self.obstacles[contact['obstacle']].friction
+        self.friction = np.array([contact['friction'] if contact['surface'] or contact['friction'] > 0.0 else self.obstacles[contact['obstacle']].friction
                                   for contact in scene['contacts']])
 
     def loads_of(self, loads: Iterable[Mapping[str, Any]]) -> np.ndarray:
