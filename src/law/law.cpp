@@ -65,8 +65,10 @@ PortReals Law::ReferenceOf(const Eigen::VectorXd& u, double s, const Mode& mode,
   PortReals reference = ReferenceAt(u, s, mode.piece);
   if (!Compliant() || Elastic()) return reference;
   const StateRule& held = In(In(mode).held);
-  const double gap = Motion(0, u, s, mode.piece, {}) + held.ports[0].compliance * forces[0];
-  if (!In(mode).idle || gap <= tolerances::kActive) reference[0] = gap;
+  if (const double compliance = held.ports[0].compliance; compliance != 0.0) {
+    const double gap = Motion(0, u, s, mode.piece, {}) + compliance * forces[0];
+    if (!In(mode).idle || gap <= tolerances::kActive) reference[0] = gap;
+  }
   for (std::size_t p = 1; p < NumPorts(); ++p) reference[p] += held.ports[p].compliance * forces[p];
   return reference;
 }
