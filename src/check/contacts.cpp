@@ -71,7 +71,7 @@ class ObstacleContact : public Contact {
   }
   void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
     const Vector normal = Normal(state), tangent{normal.y, -normal.x};
-    const Vector force = factor * (rn * normal + rt * SlipPerMotion(state) * tangent);
+    const Vector force = factor * (rn * normal + rt * SlipPerMotion(state, 1.0L) * tangent);
     AddTo(forces, Node(), force);
     if (Rolls()) (*forces)[2 * obstacle_.num_nodes + obstacle_.circle] += factor * obstacle_.radius * rt;
     if (!obstacle_.body) return;
@@ -79,6 +79,9 @@ class ObstacleContact : public Contact {
     const Vector arm = state.Place(Node()) - state.Place(*obstacle_.body);
     (*forces)[2 * obstacle_.num_nodes + *obstacle_.body] -=
         arm.x * force.y - arm.y * force.x + factor * obstacle_.radius * rt;
+  }
+  Real Uncertain(const PlacedState& state, Real rt) const override {
+    return rt == 0.0L ? 0.0L : std::abs(rt * (SlipPerMotion(state, 1.0L) - SlipPerMotion(state, -1.0L)));
   }
   // The moment as the obstacle sees it.
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
@@ -95,9 +98,10 @@ class ObstacleContact : public Contact {
   }
 
  private:
-  // Along t, where contacts give way, over that where the gap is closed: what rt does work along is slip.
-  Real SlipPerMotion(const PlacedState& state) const {
-    const Real gap = Gap(state), step = kFar * gap;
+  // Along t, where contacts give way, over that where the gap is closed: what rt does work along is slip. sense: to
+  // which side.
+  Real SlipPerMotion(const PlacedState& state, Real sense) const {
+    const Real gap = Gap(state), step = sense * kFar * gap;
     if (!gives_ || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
     const Vector along{step * n.y, -step * n.x};

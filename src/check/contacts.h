@@ -66,6 +66,8 @@ class Contact {
   }
   // Adds the forces of r_n and r_t, times factor, to *forces: x0, y0, x1, ... by node.
   virtual void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const = 0;
+  // By how much the force of r_t that is added may differ where the curvature jumps, and the contact gives way.
+  virtual Real Uncertain(const PlacedState&, Real /*rt*/) const { return 0.0L; }
   // Force on the node, and its moment about the point p of an obstacle where it is now, or about the first node of a
   // surface.
   struct OnNode {

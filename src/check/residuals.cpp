@@ -213,12 +213,16 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   Residuals residuals;
   const std::vector<Real> unbalance = scene.Unbalance(now);
   const std::vector<double> values = check::ValuesOf(now.positions, now.rotations);
+  const check::PlacedState from = scene.Placed(before), to = scene.Placed(now);
+  Real uncertain = 0.0L;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) uncertain += scene.contacts[i]->Uncertain(to, now.rt[i]);
   for (std::size_t i = 0; i < unbalance.size(); ++i) {
     const bool is_position = i < scene.num_positions;
     const Real length = is_position ? 1.0L : static_cast<Real>(scaling.length);  // of a moment
     if (scene.free[i]) {
       const Real unit = scene.units[is_position ? i / 2 : i - scene.num_positions];
-      residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[i]) / (unit * length));
+      const Real off = std::max(std::abs(unbalance[i]) - uncertain * length, 0.0L);
+      residuals.equilibrium = Worst(residuals.equilibrium, off / (unit * length));
       continue;
     }
     const Real place = scene.start[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
@@ -233,7 +237,6 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
       residuals.support =
           Worst(residuals.support, std::abs(static_cast<Real>(now.rotations[i]) - settled.rotations[i]));
   }
-  const check::PlacedState from = scene.Placed(before), to = scene.Placed(now);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const check::Contact& contact = *scene.contacts[i];
     const bool without_reaction = now.rn[i] == 0.0 && now.rt[i] == 0.0;
