@@ -118,7 +118,7 @@ class ObstacleContact : public Contact {
     return obstacle_.about + Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
   }
 
-  static constexpr Real kFar = 1e3L;  // in gaps
+  static constexpr Real kFar = 10.0L;  // in gaps
 
   MovedObstacle obstacle_;
   std::optional<Vector> slip_origin_;
