@@ -10,6 +10,11 @@
 #include "contact_path/geometry/surface.h"
 
 namespace contact_path {
+namespace {
+
+constexpr double kCoordinate = 1e-15;  // known to so much, scaled
+
+}  // namespace
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
                      const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin,
@@ -65,6 +70,9 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
           (traits.curved ? 1.0 : std::abs(gap_gradient_[static_cast<Eigen::Index>(i)])) * force_bounds[traits.dofs[i]];
     traits.force_unit = ForceUnitAbove(bound);
   }
+  // What rounding of coordinates makes of the force.
+  if (compliance > 0.0)
+    traits.force_unit = std::max(1.0, std::exp2(std::ceil(std::log2(kCoordinate / (compliance * tolerances::kActive)))));
   SetContact(traits, of_surface);
 }
 
