@@ -85,10 +85,11 @@ class ObstacleContact : public Contact {
   }
   // The moment as the obstacle sees it.
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
-    const Vector place = Position(state), n = obstacle_.surface->Normal(place),
-                 arm = place - obstacle_.radius * n - obstacle_.point;
-    const Vector seen{rn * n.x + rt * n.y, rn * n.y - rt * n.x};
-    return {!Turns() ? seen : Turned(seen, obstacle_.TurnAt(state)), arm.x * seen.y - arm.y * seen.x};
+    const Vector place = Position(state), n = obstacle_.surface->Normal(place), arm = place - obstacle_.point;
+    const Real along = rt * SlipPerMotion(state, 1.0L);
+    const Vector seen{rn * n.x + along * n.y, rn * n.y - along * n.x};
+    return {!Turns() ? seen : Turned(seen, obstacle_.TurnAt(state)),
+            arm.x * seen.y - arm.y * seen.x + obstacle_.radius * rt};
   }
   Vector Velocity(const PlacedState& state) const override {
     if (obstacle_.turn == 0.0L) return obstacle_.motion;

@@ -214,8 +214,7 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   const std::vector<Real> unbalance = scene.Unbalance(now);
   const std::vector<double> values = check::ValuesOf(now.positions, now.rotations);
   const check::PlacedState from = scene.Placed(before), to = scene.Placed(now);
-  Real uncertain = 0.0L;
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) uncertain += scene.contacts[i]->Uncertain(to, now.rt[i]);
+  const Real uncertain = Uncertain(now);
   for (std::size_t i = 0; i < unbalance.size(); ++i) {
     const bool is_position = i < scene.num_positions;
     const Real length = is_position ? 1.0L : static_cast<Real>(scaling.length);  // of a moment
@@ -347,6 +346,14 @@ double ResidualCheck::GapPastEnd(std::size_t contact, const CheckedState& state)
 double ResidualCheck::Give(std::size_t contact) const {
   const Scaling& scaling = prepared_->scaling;
   return prepared_->contacts[contact]->Gives() ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
+}
+
+double ResidualCheck::Uncertain(const CheckedState& state) const {
+  const check::PlacedState placed = prepared_->Placed(state);
+  Real sum = 0.0L;
+  for (std::size_t i = 0; i < prepared_->contacts.size(); ++i)
+    sum += prepared_->contacts[i]->Uncertain(placed, state.rt[i]);
+  return static_cast<double>(sum);
 }
 
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {

@@ -150,6 +150,7 @@ class IntegralChecks {
   Verification& result_;
   double released_ = 0.0;  // by jumps so far, over F L
   double open_ = 0.0;      // sum of what integrals of increments by Ipopt leave open, over F L
+  double given_ = 0.0;     // what contacts that give way have stored at events, over F L
   double pressed_ = 0.0;   // largest work of reactions along gaps that are left, over F L
   bool balanced_ = true;   // so far
 };

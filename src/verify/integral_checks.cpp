@@ -256,7 +256,11 @@ void IntegralChecks::CheckEnergy(const Increment& start, const Increment& increm
   const double unit = stage_.Energy();
   // Work of the reactions along the gaps that may be left, or penetrated, and of those that may be left at open gaps.
   double reactions = 0.0, left_open = 0.0;
-  for (const ContactRecord& contact : increment.contacts) {
+  for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+    const ContactRecord& contact = increment.contacts[i];
+    // What contacts that give way have stored may be lost where one begins to slide.
+    if (increment.kind != IncrementKind::kRegular)
+      given_ += stage_.check.Give(i) * (contact.rn * contact.rn + contact.rt * contact.rt) / unit;
     reactions += std::abs(contact.rn);
     if (contact.gap > kExact * stage_.scaling.length) left_open += std::hypot(contact.rn, contact.rt);
   }
@@ -270,7 +274,7 @@ void IntegralChecks::CheckEnergy(const Increment& start, const Increment& increm
   const double rounding =
       stage_.rounding * (1.0 + std::abs(increment.strain_energy) / unit) + kRoundingOfParts * stage_.stiffest * moved;
   result_.energy_balance = std::max(result_.energy_balance, std::abs(balance));
-  balanced_ = std::abs(balance) <= kEnergy * result_.work + open_ + pressed_ + rounding;
+  balanced_ = std::abs(balance) <= kEnergy * result_.work + open_ + pressed_ + given_ + rounding;
   if (!balanced_)
     findings_.Report("energy balance: ", balance, " of F L, with ", result_.work, " of work done on the whole path");
 }

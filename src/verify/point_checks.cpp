@@ -194,14 +194,15 @@ void PointChecks::CheckForces(const Increment& increment) {
     ForEachField<std::decay_t<decltype(is)>>([&](const auto& field) {
       const bool is_moment = k >= moments;
       same(field.name, part, i, is.*field.member, be[k++], is_moment ? force * length : unit,
-           is_moment ? rounding : off);
+           is_moment ? std::max(rounding, off) : off);
     });
   };
   const CheckedForces forces = stage_.check.Forces(state);
+  const double of_contacts = rounding + stage_.check.Uncertain(state) / force;
   for (std::size_t i = 0; i < forces.supports.size(); ++i)
-    same_record("support", i, increment.supports[i], forces.supports[i], 2, force, rounding);
+    same_record("support", i, increment.supports[i], forces.supports[i], 2, force, of_contacts);
   for (std::size_t i = 0; i < forces.boundaries.size(); ++i)
-    same_record("boundary", i, increment.boundaries[i], forces.boundaries[i], 2, force, rounding);
+    same_record("boundary", i, increment.boundaries[i], forces.boundaries[i], 2, force, of_contacts);
   if (increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty()) return;
   const CheckedAnswers anew = stage_.check.Answers(state);
   for (std::size_t i = 0; i < increment.sections.size(); ++i)

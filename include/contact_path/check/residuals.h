@@ -104,6 +104,8 @@ class ResidualCheck {
   // radius, the gap changes by the radius there.
   double GapPastEnd(std::size_t contact, const CheckedState& state) const;
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
+  // What forces may be off by where curvatures jump below contacts that give way [force].
+  double Uncertain(const CheckedState& state) const;
   // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body.
   double Give(std::size_t contact) const;
   // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws

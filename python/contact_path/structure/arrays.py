@@ -99,6 +99,9 @@ class Structure:
                         for name, surface in self.surfaces.items()
                         for own in [np.flatnonzero(np.array(self.contact_surfaces) == name)]}
         self.contacts = names['contacts']
+        radii = {obstacle['name']: obstacle['radius'] for obstacle in scene['obstacles']}
+        # Of circles that roll about their nodes.
+        self.contact_radii = np.array([radii[contact['obstacles'][0]] if contact.get('obstacles') else 0.0 for contact in scene['contacts']])
         self.friction = np.array([contact['friction'] if contact['surface'] or contact['friction'] > 0.0 else self.obstacles[contact['obstacle']].friction
                                   for contact in scene['contacts']])
 

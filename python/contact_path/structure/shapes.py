@@ -72,7 +72,7 @@ class Shape:
         self.tangential_parts = structure.of_contacts(increment, 'rt_')[:, None] * self.tangents
         self.reactions = self.normal_parts + self.tangential_parts
         self.cone = structure.friction[:, None] * rn * self.tangents  # half of its base
-        self.touching = self.places[structure.contact_nodes]
+        self.touching = self.places[structure.contact_nodes] - structure.contact_radii[:, None] * self.normals
         self.stage = structure.stages[structure.stage_index(increment)].name
         loads, constant = structure.loads_by_stage(increment)
         self.loads, self.constant_loads = loads[:, :2], constant[:, :2]

@@ -1,0 +1,133 @@
+// The example scenes with rigid bodies and tendons, and arches of rigid blocks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact_path/path/trace.h"
+#include "support/traced_path.h"
+
+namespace contact_path::body_scenes_test {
+namespace {
+
+constexpr double kExact = 1e-6;  // contacts of bodies give way by 1e-8 of their forces
+constexpr double kPi = 3.14159265358979323846;
+
+// Up to where the path ends, also at a limit.
+TracedPath TraceWithoutFindings(const TraceRequest& request) {
+  TracedPath path = TraceIncrements(request);
+  ExpectNoFindings(path);
+  return path;
+}
+
+double LargestLoadOf(const TracedPath& path) { return path.increments[LargestLoad(path)].load_factor; }
+
+TEST(BodyScenes, LimitsInClosedForm) {
+  const double rolls = 2.0 * 0.2 / (std::tan(kPi / 12.0) - 0.2) - 1.0,
+               climbed = (0.5 * 3.0 / 1.15 * 4.9 - 1.5) / 6.0;
+  for (const auto& [scene, load] : {std::pair("held_disc", 0.4), std::pair("ladder", climbed),
+                                    std::pair("three_discs", rolls), std::pair("masonry_arch", 0.29661)}) {
+    SCOPED_TRACE(scene);
+    const TracedPath path = TraceWithoutFindings(ReadExample(scene));
+    EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
+    EXPECT_NEAR(LargestLoadOf(path), load, scene == std::string("masonry_arch") ? 5e-6 : kExact);
+  }
+}
+
+TEST(BodyScenes, APulleyLiftsABlock) {
+  const TracedPath path = TraceProved(ReadExample("pulley_block"));
+  for (const Increment& increment : path.increments) {
+    const double s = increment.load_factor, pull = std::clamp(1000.0 * (s - 0.1) / 3.6, 0.0, 5.0);
+    for (const SectionForces& section : increment.sections) EXPECT_NEAR(section.N, pull, kExact);
+    EXPECT_NEAR(increment.positions[11], 0.25 + std::max(0.0, 0.5 * (s - 0.118)), kExact);
+  }
+}
+
+// Before it touches the disc, the tendon bends all links by N d into one arc, as far as ribs are far apart: its length
+// changes by 3 d kappa.
+TEST(BodyScenes, ATendonBendsAFinger) {
+  const TracedPath path = TraceProved(ReadExample("tendon_finger"));
+  for (const Increment& increment : path.increments)
+    EXPECT_EQ(increment.bars[0], BarState::kTaut) << increment.index;
+  const std::vector<ContactRecord>& contacts = path.increments.back().contacts;
+  EXPECT_GT(contacts[1].rn, 0.1);
+  EXPECT_GT(contacts[2].rn, 1.0);
+}
+
+TEST(BodyScenes, ARatchetClicksAndHolds) {
+  const TracedPath path = TraceProved(ReadExample("ratchet"));
+  EXPECT_EQ(std::count_if(path.increments.begin(), path.increments.end(),
+                          [](const Increment& of) { return of.kind == IncrementKind::kJump; }),
+            1);
+  // Turned on, less than 1 holds it, and back, more than 8.
+  double on = 0.0;
+  for (const Increment& increment : path.increments)
+    if (increment.stage == 1) on = std::max(on, std::abs(increment.supports.back().rm));
+  EXPECT_LT(on, 1.0);
+  EXPECT_GT(path.increments.back().supports.back().rm, 8.0);
+}
+
+// Blocks between joints at equal angles on a semicircle of the radius 1, each of which stands on the face of the one
+// before; their weights push aside, too. Limits without sliding are those of a linear program over the forces on the
+// corners.
+TraceRequest Arch(int blocks, double thickness) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "arch";
+  const auto joint = [&](int i, double r) {
+    const double angle = kPi - kPi * i / blocks;
+    return Eigen::Vector2d(r * std::cos(angle), r * std::sin(angle));
+  };
+  const double inner = 1.0 - 0.5 * thickness, outer = 1.0 + 0.5 * thickness;
+  for (int i = 0; i < blocks; ++i) {
+    const std::string name = "block" + std::to_string(i), face = "face" + std::to_string(i);
+    const std::vector<Eigen::Vector2d> corners = {joint(i, inner), joint(i, outer), joint(i + 1, outer),
+                                                  joint(i + 1, inner)};
+    double area = 0.0;
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Eigen::Vector2d &a = corners[k], &b = corners[(k + 1) % 4];
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      area += 0.5 * cross;
+      centre += cross / 6.0 * (a + b);
+    }
+    centre /= area;
+    scene.bodies.push_back({name, centre.x(), centre.y()});
+    const Eigen::Vector2d along = joint(i, 1.0);
+    Obstacle before{face, ObstacleShape::kHalfPlane, along.x(), along.y(), along.y(), -along.x(), 0.8};
+    if (i > 0) before.body = "block" + std::to_string(i - 1);
+    scene.obstacles.push_back(before);
+    for (std::size_t k = 0; k < (i + 1 == blocks ? 4U : 2U); ++k) {
+      const std::string node = name + "_" + std::to_string(k);
+      scene.nodes.push_back({node, corners[k].x(), corners[k].y(), false, false, false, name});
+      scene.contacts.push_back({node, k < 2 ? face : "ground"});
+    }
+    for (const bool weight : {true, false}) {
+      Load load;
+      load.body = name;
+      load.constant = weight;
+      (weight ? load.by : load.bx) = weight ? -std::abs(area) : std::abs(area);
+      scene.loads.push_back(load);
+    }
+  }
+  scene.obstacles.push_back({"ground", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.8});
+  request.options.at_limit = AtLimit::kStop;
+  return request;
+}
+
+TEST(BodyScenes, ArchesOfBlocksAreThoseOfLinearPrograms) {
+  for (const auto& [blocks, thickness, load] :
+       {std::tuple(4, 0.3, 0.55181), std::tuple(8, 0.2, 0.29661), std::tuple(12, 0.15, 0.15733),
+        std::tuple(12, 0.12, 0.06186)}) {
+    SCOPED_TRACE(testing::Message() << blocks << " blocks, " << thickness);
+    const TracedPath path = TraceWithoutFindings(Arch(blocks, thickness));
+    EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
+    EXPECT_NEAR(LargestLoadOf(path), load, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace contact_path::body_scenes_test
