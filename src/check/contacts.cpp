@@ -28,8 +28,8 @@ struct MovedObstacle {
   Real turn = 0.0L;  // before that, about a point
   Vector about;
   Real friction = 0.0L;
-  Real radius = 0.0L;      // of a circle that rolls on it, about the node
-  std::size_t circle = 0;  // the body that carries it
+  Real radius = 0.0L;                              // of a circle that rolls on it, about the node
+  std::size_t circle = 0;                          // the body that carries it
   std::optional<std::size_t> body = std::nullopt;  // node; its reference point is `about` at the start
   std::size_t num_nodes = 0;                       // of the scene
 
@@ -62,7 +62,8 @@ class ObstacleContact : public Contact {
     if (!Rolls()) return along;
     const Vector before = obstacle_.surface->Normal(begin), after = obstacle_.surface->Normal(end);
     const Real of_tangent = std::atan2(before.x * after.y - before.y * after.x, Dot(before, after));
-    const Real of_circle = to.Rotation(obstacle_.circle) - from.Rotation(obstacle_.circle) - obstacle_.TurnAt(to) + obstacle_.TurnAt(from);
+    const Real of_circle =
+        to.Rotation(obstacle_.circle) - from.Rotation(obstacle_.circle) - obstacle_.TurnAt(to) + obstacle_.TurnAt(from);
     return along + obstacle_.radius * (of_circle - of_tangent);
   }
   std::optional<Real> TotalSlip(const PlacedState& state) const override {

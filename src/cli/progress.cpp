@@ -114,8 +114,7 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
     };
     for (std::size_t k = 0; k < branch.states.size(); ++k)
       list(request.scene.contacts[k].Name(), increment.contacts[k].state, branch.states[k]);
-    for (std::size_t k = 0; k < branch.bars.size(); ++k)
-      list(bars[k].name, increment.bars[k], branch.bars[k]);
+    for (std::size_t k = 0; k < branch.bars.size(); ++k) list(bars[k].name, increment.bars[k], branch.bars[k]);
     if (const std::size_t same = branch.states.size() + branch.bars.size() - changes; same > 0)
       text << "; " << same << " unchanged";
     text << '\n';

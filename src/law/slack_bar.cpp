@@ -56,8 +56,9 @@ SlackBar::SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length
   traits.force_unit = ForceUnitAbove(EA);
   // While the bar is slack: l0 de/dl is l / l0, 1 or l0 / l, and both ends move.
   const bool bounded = affine && (strain == StrainMeasure::kBiot ||
-                                          (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension));
-  traits.largest_reach_rate = bounded ? std::sqrt(2.0) * static_cast<double>(spans_.size()) : std::numeric_limits<double>::infinity();
+                                  (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension));
+  traits.largest_reach_rate =
+      bounded ? std::sqrt(2.0) * static_cast<double>(spans_.size()) : std::numeric_limits<double>::infinity();
   std::vector<StateRule> states(2);
   states[kTaut].ports[0] = {PortRule::Kind::kHeld, 0.0, compliance_};
   LimitRule bears;
@@ -125,10 +126,10 @@ void SlackBar::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, c
     const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
     const Eigen::Matrix2d change = scale * (4.0 * e.second * (along * unit + v * d.transpose() + d * v.transpose()) +
                                             8.0 * e.third * along * d * d.transpose());
-    *hessian += Spread(
-        span.HessianChange(2.0 * scale * e.first * d,
-                           scale * (2.0 * e.first * unit + 4.0 * e.second * d * d.transpose()), change, own),
-        of.Dofs(), OwnDofs());
+    *hessian +=
+        Spread(span.HessianChange(2.0 * scale * e.first * d,
+                                  scale * (2.0 * e.first * unit + 4.0 * e.second * d * d.transpose()), change, own),
+               of.Dofs(), OwnDofs());
   }
 }
 
@@ -160,9 +161,8 @@ std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, 
       spans.push_back(MovingPlace::Between(structure.PointOf(static_cast<int>(first)),
                                            structure.PointOf(static_cast<int>(second))));
     }
-    bars.push_back(std::make_unique<const SlackBar>(std::move(spans), bar.EA,
-                                                    bar.rest_length > 0.0 ? bar.rest_length : length, bar.strain,
-                                                    bar.sense));
+    bars.push_back(std::make_unique<const SlackBar>(
+        std::move(spans), bar.EA, bar.rest_length > 0.0 ? bar.rest_length : length, bar.strain, bar.sense));
   }
   return bars;
 }

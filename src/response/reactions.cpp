@@ -88,9 +88,9 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
     Resultant& sum = reactions.boundaries[boundary_of_[i]];
     sum.rx += scaling_.force * on_node.x();
     sum.ry += scaling_.force * on_node.y();
-    sum.rm += scaling_.force * scaling_.length *
-              (Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node) +
-               radii_[i] * rt);
+    sum.rm +=
+        scaling_.force * scaling_.length *
+        (Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node) + radii_[i] * rt);
   }
   for (const SupportedNode& support : supports_) {
     const auto number = static_cast<int>(support.node);

@@ -88,8 +88,7 @@ std::vector<CellPoint> SquarePoints(CellPoint (*point_at)(double, double)) {
 bool IsCellShape(std::size_t nodes) { return nodes == 3 || nodes == 4 || nodes == 6 || nodes == 8; }
 
 const std::vector<CellPoint>& CellPoints(std::size_t nodes) {
-  static const std::vector<CellPoint> linear_triangle = {
-      {0.5, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, kLinearTriangle}};
+  static const std::vector<CellPoint> linear_triangle = {{0.5, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, kLinearTriangle}};
   static const std::vector<CellPoint> quadratic_triangle = TrianglePoints();
   static const std::vector<CellPoint> bilinear_square = SquarePoints(BilinearSquare);
   static const std::vector<CellPoint> serendipity_square = SquarePoints(SerendipitySquare);

@@ -377,11 +377,10 @@ bool NeedsExpansion(const TraceRequest& request) {
   };
   const auto any_in = [&](const auto& loading) {
     return any_group(loading.loads) || any_group(loading.support_motions) ||
-           std::any_of(loading.loads.begin(), loading.loads.end(),
-                       [](const Load& load) {
-                         return !load.surface.empty() || !load.solid.empty() || !load.beam.empty() || load.px != 0.0 ||
-                                load.py != 0.0 || load.bx != 0.0 || load.by != 0.0;
-                       });
+           std::any_of(loading.loads.begin(), loading.loads.end(), [](const Load& load) {
+             return !load.surface.empty() || !load.solid.empty() || !load.beam.empty() || load.px != 0.0 ||
+                    load.py != 0.0 || load.bx != 0.0 || load.by != 0.0;
+           });
   };
   const Scene& scene = request.scene;
   return !scene.beams.empty() || !scene.bodies.empty() || !scene.groups.empty() || !scene.surfaces.empty() ||

@@ -144,14 +144,14 @@ class GroupRules {
       if (!value.empty()) checker_.Add(path.Key(name), value, "must be left out where there are obstacles");
     if (contact.obstacles.size() != 2)
       return checker_.Add(key, ListText(contact.obstacles), "must name two obstacles: a circle, and what it may touch");
-    const Obstacle *const circle = checker_.KnownObstacle(contact.obstacles[0]),
-                         *const partner = checker_.KnownObstacle(contact.obstacles[1]);
+    const Obstacle *const circle = checker_.KnownObstacle(contact.obstacles[0]), *const partner =
+                                                                                     checker_.KnownObstacle(
+                                                                                         contact.obstacles[1]);
     for (std::size_t i = 0; i < 2; ++i)
       if (checker_.KnownObstacle(contact.obstacles[i]) == nullptr)
-        return checker_.Add(
-            key[i], contact.obstacles[i],
-            "must name an obstacle of the scene" +
-                NearestOf(contact.obstacles[i], scene_.obstacles, &Obstacle::name).Question());
+        return checker_.Add(key[i], contact.obstacles[i],
+                            "must name an obstacle of the scene" +
+                                NearestOf(contact.obstacles[i], scene_.obstacles, &Obstacle::name).Question());
     if (circle->shape != ObstacleShape::kCircle || circle->inside || circle->body.empty())
       return checker_.Add(key[0], circle->name, "must be a circle that a body carries, and not be its inside");
     if (partner->shape != ObstacleShape::kHalfPlane && partner->shape != ObstacleShape::kCircle)
@@ -161,8 +161,7 @@ class GroupRules {
     if (partner->inside && !(circle->radius < partner->radius))
       return checker_.Add(key[0], circle->name, "must have a smaller radius than " + partner->name);
     const Node* const centre = checker_.KnownNode(CentreNode(*circle, scene_));
-    if (centre != nullptr &&
-        (centre->body != circle->body || centre->x != circle->px || centre->y != circle->py))
+    if (centre != nullptr && (centre->body != circle->body || centre->x != circle->px || centre->y != circle->py))
       checker_.Add(key[0], circle->name, "must not have the name of a node that is not at the centre of the circle");
   }
 

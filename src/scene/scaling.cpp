@@ -300,8 +300,9 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
 double ForceOfElements(const Scene& scene, const SceneIndex& index, double loads, bool moves) {
   const Scaling of_elements = ScalesOfElements(scene, index);
   const double light = std::max(loads, LoadNorm(scene, index, true, of_elements.length));
-  return moves || !scene.bars.empty() || !scene.tendons.empty() || light == 0.0 ? of_elements.force
-                                                      : std::min(of_elements.force, kLightest * light);
+  return moves || !scene.bars.empty() || !scene.tendons.empty() || light == 0.0
+             ? of_elements.force
+             : std::min(of_elements.force, kLightest * light);
 }
 
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force) {

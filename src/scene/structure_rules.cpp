@@ -120,11 +120,13 @@ class StructureRules {
     if (nodes.size() < 2) return checker_.Add(key, ListText(nodes), "must name two nodes at least");
     std::set<std::pair<std::string, int>> unknowns;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Node *const node = checker_.KnownNode(nodes[i]), *const next = checker_.KnownNode(nodes[(i + 1) % nodes.size()]);
+      const Node *const node = checker_.KnownNode(nodes[i]), *const next =
+                                                                 checker_.KnownNode(nodes[(i + 1) % nodes.size()]);
       if (node == nullptr || next == nullptr) return;
       if (i + 1 < nodes.size() && std::hypot(next->x - node->x, next->y - node->y) < kSmallestInput)
         checker_.Add(key[i + 1], nodes[i + 1], "must not be at the same point as the node before");
-      const Node& moves = IsAttached(*node) && checker_.KnownNode(node->body) != nullptr ? *checker_.KnownNode(node->body) : *node;
+      const Node& moves =
+          IsAttached(*node) && checker_.KnownNode(node->body) != nullptr ? *checker_.KnownNode(node->body) : *node;
       if (!moves.fixed_x) unknowns.emplace(moves.name, 0);
       if (!moves.fixed_y) unknowns.emplace(moves.name, 1);
       if (IsBody(moves) && !moves.fixed_rotation) unknowns.emplace(moves.name, 2);

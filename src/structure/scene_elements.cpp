@@ -52,7 +52,8 @@ class LinearSuperelement : public Element {
   std::vector<LocalDof> dofs_;
 };
 
-// W = EA (l - l0)^2 / (2 l0) of the length l along the nodes, where it is > l0: of a tendon, whose forces are asked for.
+// W = EA (l - l0)^2 / (2 l0) of the length l along the nodes, where it is > l0: of a tendon, whose forces are asked
+// for.
 class TendonElement : public Element {
  public:
   TendonElement(double EA, double rest_length, int num_nodes)
@@ -139,9 +140,10 @@ void Place(const Tendon& tendon, std::vector<int> nodes, const std::vector<doubl
   double length = 0.0;
   for (Eigen::Index k = 0; k + 2 < places.size(); k += 2)
     length += (places.segment<2>(k + 2) - places.segment<2>(k)).norm();
-  elements->push_back({std::make_unique<TendonElement>(tendon.EA, tendon.rest_length > 0.0 ? tendon.rest_length : length,
-                                                       static_cast<int>(nodes.size())),
-                       std::move(nodes)});
+  elements->push_back(
+      {std::make_unique<TendonElement>(tendon.EA, tendon.rest_length > 0.0 ? tendon.rest_length : length,
+                                       static_cast<int>(nodes.size())),
+       std::move(nodes)});
 }
 
 void Place(const Superelement& part, std::vector<int> nodes, const std::vector<double>& reference,

@@ -33,8 +33,9 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     if (candidate.OnSurface()) return candidate.friction;
     const Obstacle& obstacle = scene.obstacles[index.Obstacle(candidate.obstacle)];
     const Node& node = scene.nodes[at];
-    const bool can_slide = CanSlide(!node.fixed_x || rates[2 * at] != 0.0, !node.fixed_y || rates[2 * at + 1] != 0.0,
-                                    obstacle, turning.count(candidate.obstacle) > 0 || !obstacle.body.empty() || candidate.Rolls());
+    const bool can_slide =
+        CanSlide(!node.fixed_x || rates[2 * at] != 0.0, !node.fixed_y || rates[2 * at + 1] != 0.0, obstacle,
+                 turning.count(candidate.obstacle) > 0 || !obstacle.body.empty() || candidate.Rolls());
     return can_slide ? candidate.FrictionWith(obstacle) : 0.0;
   };
   // Parts pass on forces: of the stiffest one the rounding, too.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "contact_path/geometry/point_curves.h"
-#include "support/curved_obstacles.h"
 #include "support/curved_contacts.h"
+#include "support/curved_obstacles.h"
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"
 #include "support/points.h"

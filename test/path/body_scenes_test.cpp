@@ -26,8 +26,7 @@ TracedPath TraceWithoutFindings(const TraceRequest& request) {
 double LargestLoadOf(const TracedPath& path) { return path.increments[LargestLoad(path)].load_factor; }
 
 TEST(BodyScenes, LimitsInClosedForm) {
-  const double rolls = 2.0 * 0.2 / (std::tan(kPi / 12.0) - 0.2) - 1.0,
-               climbed = (0.5 * 3.0 / 1.15 * 4.9 - 1.5) / 6.0;
+  const double rolls = 2.0 * 0.2 / (std::tan(kPi / 12.0) - 0.2) - 1.0, climbed = (0.5 * 3.0 / 1.15 * 4.9 - 1.5) / 6.0;
   for (const auto& [scene, load] : {std::pair("held_disc", 0.4), std::pair("ladder", climbed),
                                     std::pair("three_discs", rolls), std::pair("masonry_arch", 0.29661)}) {
     SCOPED_TRACE(scene);
@@ -50,8 +49,7 @@ TEST(BodyScenes, APulleyLiftsABlock) {
 // changes by 3 d kappa.
 TEST(BodyScenes, ATendonBendsAFinger) {
   const TracedPath path = TraceProved(ReadExample("tendon_finger"));
-  for (const Increment& increment : path.increments)
-    EXPECT_EQ(increment.bars[0], BarState::kTaut) << increment.index;
+  for (const Increment& increment : path.increments) EXPECT_EQ(increment.bars[0], BarState::kTaut) << increment.index;
   const std::vector<ContactRecord>& contacts = path.increments.back().contacts;
   EXPECT_GT(contacts[1].rn, 0.1);
   EXPECT_GT(contacts[2].rn, 1.0);
@@ -119,9 +117,8 @@ TraceRequest Arch(int blocks, double thickness) {
 }
 
 TEST(BodyScenes, ArchesOfBlocksAreThoseOfLinearPrograms) {
-  for (const auto& [blocks, thickness, load] :
-       {std::tuple(4, 0.3, 0.55181), std::tuple(8, 0.2, 0.29661), std::tuple(12, 0.15, 0.15733),
-        std::tuple(12, 0.12, 0.06186)}) {
+  for (const auto& [blocks, thickness, load] : {std::tuple(4, 0.3, 0.55181), std::tuple(8, 0.2, 0.29661),
+                                                std::tuple(12, 0.15, 0.15733), std::tuple(12, 0.12, 0.06186)}) {
     SCOPED_TRACE(testing::Message() << blocks << " blocks, " << thickness);
     const TracedPath path = TraceWithoutFindings(Arch(blocks, thickness));
     EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;

@@ -75,8 +75,8 @@ TEST(Rolling, ADiscRollsUntilItSlips) {
     }
 }
 
-// Round a drum of the radius R: where its centre has gone round by phi, the disc has turned by (1 + R / r) phi; within a
-// drum by (1 - R / r) phi.
+// Round a drum of the radius R: where its centre has gone round by phi, the disc has turned by (1 + R / r) phi; within
+// a drum by (1 - R / r) phi.
 TEST(Rolling, ADiscRollsRoundADrum) {
   for (const bool inside : {false, true})
     for (const double drum : {1.5, 40.0}) {
@@ -117,9 +117,8 @@ TEST(Rolling, ADiscRollsRoundADrum) {
 TEST(Rolling, ThreeDiscsHoldByFriction) {
   const double between = std::tan(M_PI / 12.0), floor = (2.0 - std::sqrt(3.0)) / 3.0;
   for (const double radius : {0.01, 1.0})
-    for (const auto& [of_discs, of_floor, holds] :
-         {std::tuple(1.001, 1.5, true), std::tuple(1.5, 1.001, true), std::tuple(0.999, 1.5, false),
-          std::tuple(1.5, 0.999, false)}) {
+    for (const auto& [of_discs, of_floor, holds] : {std::tuple(1.001, 1.5, true), std::tuple(1.5, 1.001, true),
+                                                    std::tuple(0.999, 1.5, false), std::tuple(1.5, 0.999, false)}) {
       SCOPED_TRACE(testing::Message() << "radius " << radius << ", " << of_discs << ", " << of_floor);
       TraceRequest request;
       Scene& scene = request.scene;

@@ -18,8 +18,13 @@ TraceRequest SoundRequest() {
   TraceRequest request;
   Scene& scene = request.scene;
   scene.bodies = {{"disc", 0.0, 1.0}};
-  scene.nodes = {{"eye", 0.0, 2.0}, {"left", -2.0, 4.0, true, true}, {"right", 2.0, 4.0, true, true},
-                 {"n1", 5.0, 0.0, true, true}, {"n2", 7.0, 0.0, true, true}, {"n3", 7.0, 3.0}, {"n4", 5.0, 2.0}};
+  scene.nodes = {{"eye", 0.0, 2.0},
+                 {"left", -2.0, 4.0, true, true},
+                 {"right", 2.0, 4.0, true, true},
+                 {"n1", 5.0, 0.0, true, true},
+                 {"n2", 7.0, 0.0, true, true},
+                 {"n3", 7.0, 3.0},
+                 {"n4", 5.0, 2.0}};
   scene.nodes[0].body = "disc";
   scene.materials = {{"rubber"}};
   scene.materials[0].E = 1.0;
@@ -80,8 +85,12 @@ const BrokenRule kRules[] = {
      "must name a solid of the scene; did you mean block?"},
     {"ForceBesideWeight", [](auto& r) { r.scene.loads[2].fx = 1.0; }, "scene.loads[2].fx", "1",
      "must be 0 where there is a beam: bx and by act on it"},
-    {"WeightOfNothing", [](auto& r) { r.scene.loads[0] = {"n3"}; r.scene.loads[0].bx = 1.0; }, "scene.loads[0].bx",
-     "1", "must be 0: a weight needs a solid, a beam or a body"},
+    {"WeightOfNothing",
+     [](auto& r) {
+       r.scene.loads[0] = {"n3"};
+       r.scene.loads[0].bx = 1.0;
+     },
+     "scene.loads[0].bx", "1", "must be 0: a weight needs a solid, a beam or a body"},
     {"TotalLaw", [](auto& r) { r.options.friction_law = FrictionLaw::kTotal; }, "options.friction_law", "total",
      "must be incremental where a body carries an obstacle"},
 };

@@ -147,8 +147,8 @@ class Law {
 
   // References at a place from which an arc sets out.
   virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;
-  // The same for the equations of ports that are held with these forces. Where compliances are not its own, the gap of a
-  // law that touches to rounding is the reference of port 0: forces begin at nothing there.
+  // The same for the equations of ports that are held with these forces. Where compliances are not its own, the gap of
+  // a law that touches to rounding is the reference of port 0: forces begin at nothing there.
   PortReals ReferenceOf(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const;
   // How far an idle law is from its limit, for the search of what an increment may reach.
   virtual double Reach(const Eigen::VectorXd& u, double s) const = 0;

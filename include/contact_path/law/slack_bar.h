@@ -22,9 +22,9 @@ constexpr int NumberOf(BarState state) { return static_cast<int>(state); }
 // "taut", "slack".
 std::string_view ToString(BarState state);
 
-// With the strain e of the length of the spans, each between two places (scene.h, StrainMeasure), and sigma = 1 of a bar that bears
-// tension, -1 of one that bears compression, the port has the motion g = -sigma l0 e [length], and the force r >= 0
-// along it:
+// With the strain e of the length of the spans, each between two places (scene.h, StrainMeasure), and sigma = 1 of a
+// bar that bears tension, -1 of one that bears compression, the port has the motion g = -sigma l0 e [length], and the
+// force r >= 0 along it:
 //   taut:   g + (l0 / EA) r = 0, r >= 0, so that r = sigma EA e, the force of a bar by its energy EA l0 e^2 / 2
 //   slack:  r = 0, g >= 0
 class SlackBar : public Law {

@@ -53,7 +53,7 @@ class ReactionProblem {
   Structure released_;
   ContactPairs contacts_;           // of the structure without supports
   std::vector<std::size_t> nodes_;  // by contact
-  std::vector<double> radii_;  // by contact: of a circle that rolls, else 0
+  std::vector<double> radii_;       // by contact: of a circle that rolls, else 0
   std::vector<SupportedNode> supports_;
   std::vector<TouchedBoundary> boundaries_;
   std::vector<std::size_t> boundary_of_;  // by contact: into boundaries_

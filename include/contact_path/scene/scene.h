@@ -186,8 +186,8 @@ constexpr auto Fields(Of<Group>) {
                     Member("nodes", &P::nodes).Naming(TextKind::kNode));
 }
 
-// Dead load: on a node, or on each node of a group, on a body, as a traction on a beam or a surface, or as the weight of
-// a solid, a beam or a body.
+// Dead load: on a node, or on each node of a group, on a body, as a traction on a beam or a surface, or as the weight
+// of a solid, a beam or a body.
 struct Load {
   std::string node;
   double fx = 0.0;  // [force], per unit of the load factor unless constant
@@ -255,9 +255,9 @@ constexpr auto Fields(Of<Obstacle>) {
 struct ContactCandidate {
   std::string node;
   std::string obstacle;
-  std::string group = {};    // in place of node
-  std::string surface = {};  // in place of obstacle
-  double friction = 0.0;     // Coulomb's coefficient, >= 0; with an obstacle, 0 = that of the obstacle
+  std::string group = {};                   // in place of node
+  std::string surface = {};                 // in place of obstacle
+  double friction = 0.0;                    // Coulomb's coefficient, >= 0; with an obstacle, 0 = that of the obstacle
   std::vector<std::string> obstacles = {};  // in place of node and obstacle: the circle, and what it may touch
 
   bool OnSurface() const { return !surface.empty(); }
