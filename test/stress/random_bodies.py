@@ -1,0 +1,212 @@
+#!/usr/bin/python3
+"""Traces random scenes of rigid bodies, circles, tendons and a beam, in several words each.
+
+Usage: random_bodies.py TRACE VERIFY DIRECTORY [--seeds FROM:TO]
+
+TRACE and VERIFY are contact_path_trace and verify. Each seed is the same scene on every machine: a box, a disc, both, a body in a sling,
+or a fin that presses a disc. Each path is verified from its bag, and the scene is traced again in other units, mirrored, with its
+lists backwards, and with another step: kinds and load factors of events must be the same to 1e-6. A line is printed for each path
+that ends by a fault of the tracer, each that is not proved, and each that differs. Exit status 0 only if none is not proved or differs.
+"""
+import argparse
+import copy
+import csv
+import os
+import random
+import subprocess
+import sys
+
+import yaml
+
+LONGEST = '60'      # seconds for one path
+SAME = 1e-6         # of load factors of events, over 1 + their size
+PROPER_ENDS = ('stop_criterion', 'max_increments', 'path_end', 'at_limit')
+# Powers of length and force of the fields.
+UNITS = {'x': (1, 0), 'y': (1, 0), 'px': (1, 0), 'py': (1, 0), 'radius': (1, 0), 'EA': (0, 1), 'EI': (2, 1), 'fx': (0, 1), 'fy': (0, 1),
+         'by': (0, 1), 'moment': (1, 1), 'stiffness': (-1, 1)}
+
+
+class RandomScene:
+    def __init__(self, seed):
+        self.random = random.Random(seed)
+        self.scene = {name: [] for name in ('nodes', 'bodies', 'bars', 'tendons', 'beams', 'superelements', 'obstacles', 'contacts', 'loads')}
+        self.add('obstacles', name='floor', shape='half_plane', nx=0.0, ny=1.0, friction=self.random.choice([0.0, 0.2, 0.5, 0.9]))
+        getattr(self, self.random.choice(['box', 'disc', 'box_and_disc', 'sling', 'fin']))()
+
+    def add(self, part, **fields):
+        self.scene[part].append(fields)
+
+    def number(self, low, high):
+        return self.random.uniform(low, high)
+
+    def ground(self, name, x, y, **fields):
+        self.add('nodes', name=name, x=x, y=y, fixed_x=True, fixed_y=True, **fields)
+
+    def weight(self, body):
+        self.add('loads', body=body, by=-self.number(0.5, 2.0), constant=True)
+
+    def spring(self, node, along, up=0.0):
+        self.add('superelements', nodes=[node], stiffness=[along, 0.0, 0.0, up])
+
+    def tie(self, first, second, stiffness):
+        if self.random.random() < 0.5:
+            self.add('bars', nodes=[first, second], EA=stiffness, sense=self.random.choice(['both', 'tension']))
+        else:
+            self.add('tendons', nodes=[first, second], EA=stiffness)
+
+    def add_disc(self, x, radius, friction):
+        self.add('bodies', name='disc', x=x, y=radius)
+        self.add('obstacles', name='rim', shape='circle', px=x, py=radius, radius=radius, body='disc', friction=friction)
+        self.add('nodes', name='top', x=x, y=2.0 * radius, body='disc')
+        self.add('nodes', name='hub', x=x, y=radius, body='disc')
+        self.add('contacts', obstacles=['rim', 'floor'])
+        self.weight('disc')
+
+    def box(self):
+        width, height = self.number(0.5, 1.5), self.number(0.5, 1.5)
+        self.add('bodies', name='box', x=0.0, y=0.5 * height)
+        for name, x in (('left', -0.5 * width), ('right', 0.5 * width)):
+            self.add('nodes', name=name, x=x, y=0.0, body='box')
+            self.add('nodes', name=name + '_top', x=x, y=height, body='box')
+            self.add('contacts', node=name, obstacle='floor')
+        self.weight('box')
+        self.ground('ground', -self.number(1.5, 3.0), self.number(0.2, 1.5))
+        self.tie('ground', 'left_top', self.number(5.0, 50.0))
+        self.add('loads', body='box', fx=1.0, moment=self.number(-0.3, 0.3))
+
+    def box_and_disc(self):
+        self.box()
+        radius = self.number(0.3, 0.6)
+        self.add_disc(2.5 + radius, radius, self.random.choice([0.2, 0.5, 0.8]))
+        self.spring('hub', self.number(0.5, 2.0))
+        for node in ('right_top', 'right'):
+            self.add('contacts', node=node, obstacle='rim')
+
+    def disc(self):
+        radius = self.number(0.3, 0.8)
+        self.add_disc(0.0, radius, 0.5)
+        self.ground('ground', -self.number(1.0, 2.0), self.number(0.5, 2.5))
+        self.tie('ground', 'top', self.number(3.0, 30.0))
+        self.spring('hub', self.number(0.1, 1.0))
+        self.add('loads', body='disc', fx=self.number(0.5, 1.0), moment=-self.number(-0.2, 0.6))
+        if self.random.random() < 0.5:
+            peg = self.number(0.3, 0.5)
+            self.add('obstacles', name='peg', shape='circle', px=radius + peg + self.number(0.1, 0.5), py=self.number(0.2, 1.2), radius=peg,
+                     friction=self.random.choice([0.0, 0.3]))
+            self.add('contacts', obstacles=['rim', 'peg'])
+
+    def sling(self):
+        self.add('bodies', name='load', x=self.number(-0.1, 0.1), y=3.0)
+        for name, x, y in (('one', -0.6, 3.6), ('two', 0.5, 3.5), ('foot', 0.1, 2.2)):
+            self.add('nodes', name=name, x=x, y=y, body='load')
+        self.ground('left', -self.number(0.5, 2.0), 5.0)
+        self.ground('right', self.number(0.5, 2.0), 5.2)
+        self.ground('hook', 0.0, 5.5)
+        self.add('tendons', nodes=['left', 'one', 'hook', 'two', 'right'], EA=self.number(20.0, 200.0))
+        self.spring('foot', self.number(0.2, 1.0), self.number(0.0, 0.5))
+        self.add('contacts', node='foot', obstacle='floor')
+        self.add('loads', body='load', by=-1.0, constant=True)
+        self.add('loads', body='load', fx=self.number(-1.0, 1.0), by=-self.number(0.0, 3.0), moment=self.number(-0.3, 0.3))
+
+    def fin(self):
+        radius = self.number(0.5, 0.9)
+        self.ground('root', 0.0, 1.0, fixed_rotation=True)
+        self.add_disc(2.0, radius, 0.5)
+        self.spring('hub', self.number(0.5, 2.0))
+        self.add('nodes', name='tip', x=self.number(1.6, 2.4), y=2.0 * radius + self.number(0.02, 0.3))
+        self.add('beams', name='fin', nodes=['root', 'tip'], EA=1e4, EI=self.number(0.5, 3.0), segments=6)
+        self.add('contacts', node='tip', obstacle='rim')
+        self.add('loads', node='tip', fx=self.number(-0.3, 0.3), fy=-1.0)
+
+    def request(self):
+        scene = {'name': 'random_bodies', **{name: entries for name, entries in self.scene.items() if entries}}
+        stop = {'quantity': 'load_factor', 'when': '>', 'value': self.number(0.5, 2.0)}
+        return {'scene': scene, 'options': {'max_increments': 60, 'stop': [stop]}}
+
+
+def entries_of(request):
+    return [entry for entries in request['scene'].values() if isinstance(entries, list) for entry in entries]
+
+
+def in_units(request, length=1e-3, force=1e6):
+    for entry in entries_of(request):
+        for field in entry.keys() & UNITS.keys():
+            factor = length ** UNITS[field][0] * force ** UNITS[field][1]
+            entry[field] = [factor * value for value in entry[field]] if isinstance(entry[field], list) else factor * entry[field]
+
+
+def mirrored(request):
+    for entry in entries_of(request):
+        for field in entry.keys() & {'x', 'px', 'nx', 'fx', 'moment'}:
+            entry[field] = -entry[field]
+
+
+def backwards(request):
+    for name, entries in request['scene'].items():
+        if isinstance(entries, list):
+            entries.reverse()
+        if name in ('bars', 'tendons'):
+            for entry in entries:
+                entry['nodes'].reverse()
+
+
+def with_other_step(request):
+    request['options'].update(step=0.013, max_increments=400)
+
+
+def traced(request, program, path):
+    """End, kinds and load factors of events, and number of increments."""
+    with open(path + '.yaml', 'w') as file:
+        yaml.safe_dump(request, file, sort_keys=False)
+    run = subprocess.run(['timeout', LONGEST, program, path + '.yaml', '--csv', path + '.csv', '--bag', path + '.bag'], capture_output=True,
+                         text=True)
+    end = run.stderr.strip().split('\n')[-1].partition(': ')[2]
+    if run.returncode > 1:
+        raise SystemExit('random_bodies.py: %s.yaml: %s' % (path, run.stderr.strip()))
+    with open(path + '.csv') as file:
+        rows = list(csv.DictReader(file))
+    return end, [(row['kind'], float(row['load_factor'])) for row in rows if row['kind'] not in ('start', 'regular', 'sample')], len(rows)
+
+
+def differ(events, others):
+    return any(a[0] != b[0] or abs(a[1] - b[1]) > SAME * (1.0 + abs(a[1])) for a, b in zip(events, others))
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument('trace')
+    parser.add_argument('verify')
+    parser.add_argument('directory')
+    parser.add_argument('--seeds', default='1:61')
+    arguments = parser.parse_args()
+    first, last = map(int, arguments.seeds.split(':'))
+    os.makedirs(arguments.directory, exist_ok=True)
+    counts = {'faults': 0, 'not proved': 0, 'differ': 0}
+
+    def tell(seed, what, text):
+        counts[what] += 1
+        print('seed %d: %s: %s' % (seed, what, text))
+
+    for seed in range(first, last):
+        request = RandomScene(seed).request()
+        path = os.path.join(arguments.directory, str(seed))
+        end, events, count = traced(request, arguments.trace, path)
+        if not end.startswith(PROPER_ENDS):
+            tell(seed, 'faults', end)
+        verdict = subprocess.run(['timeout', LONGEST, arguments.verify, path + '.bag'], capture_output=True, text=True).stdout
+        if count > 0 and '\nproved' not in verdict:
+            tell(seed, 'not proved', next((line for line in verdict.split('\n') if line.startswith('increment ')), verdict[-200:]))
+        for change in (in_units, mirrored, backwards, with_other_step):
+            other = copy.deepcopy(request)
+            change(other)
+            _, others, other_count = traced(other, arguments.trace, path + '_other')
+            # Paths that were cut short have fewer events.
+            cut = max(count, other_count) >= 60
+            if differ(events, others) or (not cut and len(events) != len(others)):
+                tell(seed, 'differ', '%s: %s, %s' % (change.__name__, events, others))
+    print('%d scenes: ' % (last - first) + ', '.join('%d %s' % (number, what) for what, number in counts.items()))
+    return 1 if counts['not proved'] or counts['differ'] else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
