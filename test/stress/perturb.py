@@ -132,7 +132,7 @@ def variants_of(request, rng, number):
         angle = round(rng.uniform(1.0, 359.0), 1) if variants.can_turn_by_any_angle(request) else 90 * rng.randint(1, 3)
         yield 'turned by %g degrees' % angle, variants.turned(request, angle)
         yield MIRRORED, variants.mirrored(request)
-        size = max(abs(node.get(axis, 0.0)) for node in variants.entries(request, 'nodes') for axis in 'xy')
+        size = max(abs(node.get(axis, 0.0)) for node in variants.entries(request, 'nodes') + variants.entries(request, 'bodies') for axis in 'xy')
         shift = size * rng.uniform(-1.0, 1.0), size * rng.uniform(-1.0, 1.0)
         yield 'moved by %.3g, %.3g' % shift, variants.moved(request, ((1, 0), (0, 1)), shift)
 

@@ -9,6 +9,8 @@ import math
 LENGTH, FORCE, STRESS = (1, 0), (0, 1), (-2, 1)
 UNITS = {
     'nodes': {'x': LENGTH, 'y': LENGTH},
+    'bodies': {'x': LENGTH, 'y': LENGTH},
+    'tendons': {'EA': FORCE, 'rest_length': LENGTH},
     'bars': {'EA': FORCE, 'rest_length': LENGTH},
     'superelements': {'stiffness': (-1, 1), 'rest_positions': LENGTH},
     'beams': {'EA': FORCE, 'EI': (2, 1), 'GA': FORCE},
@@ -16,15 +18,15 @@ UNITS = {
     'solids': {'thickness': LENGTH},
     'surfaces': {'radius': LENGTH},
     'loads': {'fx': FORCE, 'fy': FORCE, 'moment': (1, 1), 'px': (-1, 1), 'py': (-1, 1)},
-    'obstacles': {'px': LENGTH, 'py': LENGTH, 'radius': LENGTH, 'points': LENGTH, 'fillet': LENGTH},
+    'obstacles': {'px': LENGTH, 'py': LENGTH, 'radius': LENGTH, 'points': LENGTH, 'fillet': LENGTH, 'fillets': LENGTH},
     'support_motions': {'dx': LENGTH, 'dy': LENGTH},
     'obstacle_motions': {'dx': LENGTH, 'dy': LENGTH, 'about_x': LENGTH, 'about_y': LENGTH}}
 OF_QUANTITIES = {'x': LENGTH, 'y': LENGTH, 'gap': LENGTH, 'rn': FORCE, 'rt': FORCE}
 
 # What turns with the axes, and what moves with the origin, too.
-VECTORS = {'loads': [('fx', 'fy'), ('px', 'py')], 'obstacles': [('nx', 'ny')], 'support_motions': [('dx', 'dy')],
+VECTORS = {'loads': [('fx', 'fy'), ('px', 'py'), ('bx', 'by')], 'obstacles': [('nx', 'ny')], 'support_motions': [('dx', 'dy')],
            'obstacle_motions': [('dx', 'dy')]}
-PLACES = {'nodes': ('x', 'y'), 'obstacles': ('px', 'py'), 'obstacle_motions': ('about_x', 'about_y')}
+PLACES = {'nodes': ('x', 'y'), 'bodies': ('x', 'y'), 'obstacles': ('px', 'py'), 'obstacle_motions': ('about_x', 'about_y')}
 # What a mirror image turns the other way round.
 ROTATIONS = {'loads': 'moment', 'support_motions': 'rotation', 'obstacle_motions': 'turn', 'beams': 'angle'}
 
@@ -55,7 +57,7 @@ def rounded(request, rng, relative):
     far from the origin it is a share of the size of the structure."""
     request = copy.deepcopy(request)
     places = {}
-    nodes = entries(request, 'nodes')
+    nodes = entries(request, 'nodes') + entries(request, 'bodies')
     size = max(max(values) - min(values) for values in ([node.get(axis, 0.0) for node in nodes] for axis in 'xy'))
 
     def change(value, most=math.inf):
@@ -104,6 +106,9 @@ def in_units(request, length, force):
             for field in fields.keys() & entry.keys():
                 size = length ** fields[field][0] * force ** fields[field][1]
                 entry[field] = [size * value for value in entry[field]] if isinstance(entry[field], list) else size * entry[field]
+    for load in entries(request, 'loads'):  # weights: of a body, a beam, a solid
+        for field in {'bx', 'by'} & load.keys():
+            load[field] *= force * length ** (0 if 'body' in load else -1 if 'beam' in load else -3)
     for criterion in criteria(request):
         powers = OF_QUANTITIES.get(quantity(criterion)[1], (0, 0))
         criterion['value'] = criterion.get('value', 0.0) * length ** powers[0] * force ** powers[1]
@@ -112,7 +117,7 @@ def in_units(request, length, force):
 
 def can_turn_by_any_angle(request):
     """Not where a node is held along one axis alone, or a position ends the path."""
-    return not (any(node.get('fixed_x', False) != node.get('fixed_y', False) for node in entries(request, 'nodes')) or
+    return not (any(node.get('fixed_x', False) != node.get('fixed_y', False) for node in entries(request, 'nodes') + entries(request, 'bodies')) or
                 any(quantity(criterion)[1] in ('x', 'y') for criterion in criteria(request)))
 
 
