@@ -103,7 +103,7 @@ class ObstacleContact : public Contact {
   // Along t, where contacts give way, over that where the gap is closed: what rt does work along is slip. sense: to
   // which side.
   Real SlipPerMotion(const PlacedState& state, Real sense) const {
-    const Real gap = Gap(state), step = sense * kFar * gap;
+    const Real gap = Gap(state), step = sense * gap;
     if (!gives_ || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
     const Vector along{step * n.y, -step * n.x};
@@ -119,8 +119,6 @@ class ObstacleContact : public Contact {
     if (obstacle_.turn == 0.0L) return moved;
     return obstacle_.about + Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
   }
-
-  static constexpr Real kFar = 10.0L;  // in gaps
 
   MovedObstacle obstacle_;
   std::optional<Vector> slip_origin_;

@@ -73,7 +73,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
   // What rounding of coordinates makes of the force.
   if (compliance > 0.0)
     traits.force_unit =
-        std::max(1.0, std::exp2(std::ceil(std::log2(kCoordinate / (compliance * tolerances::kActive)))));
+        std::max(traits.force_unit, std::exp2(std::ceil(std::log2(kCoordinate / (compliance * tolerances::kActive)))));
   SetContact(traits, of_surface);
 }
 

@@ -13,7 +13,7 @@
 namespace contact_path::rolling_test {
 namespace {
 
-constexpr double kExact = 5e-8;  // contacts of bodies give way by 1e-8 of their forces
+constexpr double kExact = 5e-9;  // contacts of bodies give way by 1e-8 of their forces
 
 Load OfBody(const std::string& body, double by, bool constant) {
   Load load;

@@ -5,11 +5,10 @@ Usage: random_bodies.py TRACE VERIFY DIRECTORY [--seeds FROM:TO]
 
 TRACE and VERIFY are contact_path_trace and verify. Each seed is the same scene on every machine: a box, a disc, both, a body in a sling,
 or a fin that presses a disc. Each path is verified from its bag, and the scene is traced again in other units, mirrored, with its
-lists backwards, and with another step: kinds and load factors of events must be the same to 1e-6. A line is printed for each path
+lists in another order, and with another step: kinds and load factors of events must be the same to 1e-6. A line is printed for each path
 that ends by a fault of the tracer, each that is not proved, and each that differs. Exit status 0 only if none is not proved or differs.
 """
 import argparse
-import copy
 import csv
 import os
 import random
@@ -18,12 +17,11 @@ import sys
 
 import yaml
 
+import variants
+
 LONGEST = '60'      # seconds for one path
 SAME = 1e-6         # of load factors of events, over 1 + their size
 PROPER_ENDS = ('stop_criterion', 'max_increments', 'path_end', 'at_limit')
-# Powers of length and force of the fields.
-UNITS = {'x': (1, 0), 'y': (1, 0), 'px': (1, 0), 'py': (1, 0), 'radius': (1, 0), 'EA': (0, 1), 'EI': (2, 1), 'fx': (0, 1), 'fy': (0, 1),
-         'by': (0, 1), 'moment': (1, 1), 'stiffness': (-1, 1)}
 
 
 class RandomScene:
@@ -124,34 +122,8 @@ class RandomScene:
         return {'scene': scene, 'options': {'max_increments': 60, 'stop': [stop]}}
 
 
-def entries_of(request):
-    return [entry for entries in request['scene'].values() if isinstance(entries, list) for entry in entries]
-
-
-def in_units(request, length=1e-3, force=1e6):
-    for entry in entries_of(request):
-        for field in entry.keys() & UNITS.keys():
-            factor = length ** UNITS[field][0] * force ** UNITS[field][1]
-            entry[field] = [factor * value for value in entry[field]] if isinstance(entry[field], list) else factor * entry[field]
-
-
-def mirrored(request):
-    for entry in entries_of(request):
-        for field in entry.keys() & {'x', 'px', 'nx', 'fx', 'moment'}:
-            entry[field] = -entry[field]
-
-
-def backwards(request):
-    for name, entries in request['scene'].items():
-        if isinstance(entries, list):
-            entries.reverse()
-        if name in ('bars', 'tendons'):
-            for entry in entries:
-                entry['nodes'].reverse()
-
-
 def with_other_step(request):
-    request['options'].update(step=0.013, max_increments=400)
+    return {**request, 'options': {**request['options'], 'step': 0.013, 'max_increments': 400}}
 
 
 def traced(request, program, path):
@@ -196,14 +168,13 @@ def main():
         verdict = subprocess.run(['timeout', LONGEST, arguments.verify, path + '.bag'], capture_output=True, text=True).stdout
         if count > 0 and '\nproved' not in verdict:
             tell(seed, 'not proved', next((line for line in verdict.split('\n') if line.startswith('increment ')), verdict[-200:]))
-        for change in (in_units, mirrored, backwards, with_other_step):
-            other = copy.deepcopy(request)
-            change(other)
+        for words, other in (('units', variants.in_units(request, 1e-3, 1e6)), ('mirrored', variants.mirrored(request)),
+                             ('order', variants.reordered(request, random.Random(seed))), ('step', with_other_step(request))):
             _, others, other_count = traced(other, arguments.trace, path + '_other')
             # Paths that were cut short have fewer events.
             cut = max(count, other_count) >= 60
             if differ(events, others) or (not cut and len(events) != len(others)):
-                tell(seed, 'differ', '%s: %s, %s' % (change.__name__, events, others))
+                tell(seed, 'differ', '%s: %s, %s' % (words, events, others))
     print('%d scenes: ' % (last - first) + ', '.join('%d %s' % (number, what) for what, number in counts.items()))
     return 1 if counts['not proved'] or counts['differ'] else 0
 
