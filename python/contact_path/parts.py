@@ -60,7 +60,8 @@ class Loading:
              solid: str = '', beam: str = '') -> None:
         """Dead load on a node or on each node of a group: fx, fy [force], moment [force length], counterclockwise.
 
-        px, py: traction on the axis of the beam `group`, or on a surface [force/length]. constant: not times the load factor.
+        px, py: traction on the axis of the beam `group`, or on a surface [force/length]. bx, by: weight of a `solid` [force/length^3], a
+        `beam` [force/length] or a `body` [force], on whose reference point fx, fy act, too. constant: not times the load factor.
         """
         self._add('loads', locals())
 
@@ -151,26 +152,28 @@ class Parts(Loading):
                  fillet: float = 0.0, body: str = '', fillets: Numbers = ()) -> None:
         """A rigid obstacle with a friction coefficient [-], the admissible side on the left of its boundary. shape half_plane:
         boundary through px, py [length], normal nx, ny towards the admissible side; circle: centre px, py, radius [length], inside:
-        it encloses the structure; polyline with fillets of this radius [length] and spline: points (n, 2), counted from px, py,
-        or x, y in turn [length]; closed: the last one is joined to the first."""
+        it encloses the structure; polyline with fillets of this radius [length], or fillets (n,) by point, and spline: points (n, 2),
+        counted from px, py, or x, y in turn [length]; closed: the last one is joined to the first; body: the one that carries it."""
         self._add('obstacles', locals())
 
     @named
     def contact(self, *, node: str = '', group: str = '', obstacle: str = '', surface: str = '', friction: float = 0.0,
                 obstacles: Texts = ()) -> None:
-        """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group.
-        friction: coefficient with the surface [-]; an obstacle has its own."""
+        """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group. obstacles:
+        a circle that a body carries and what it rolls on, called CIRCLE@OBSTACLE. friction: coefficient [-]; with an obstacle, 0: its own."""
         self._add('contacts', locals())
 
     @named
     def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0) -> None:
-        """One of the tendons: EA [force], > 0; rest_length [length], 0 or > 0."""
+        """A string through nodes, along which it slides without friction: stiffness EA [force], rest_length [length], 0: the sum of the
+        distances at the start. It bears tension alone."""
         self._add('tendons', locals())
 
     @named
     def body(self, name: str, *, x: float = 0.0, y: float = 0.0, fixed_x: bool = False, fixed_y: bool = False,
              fixed_rotation: bool = False) -> None:
-        """One of the bodies: x [length]; y [length]."""
+        """A rigid body, its reference point initially at x, y [length]; fixed_...: held by a support. Nodes with its name as `body` move
+        with it."""
         self._add('bodies', locals())
 
     @named

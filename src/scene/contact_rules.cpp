@@ -77,9 +77,11 @@ void ContactRules::CheckPartner(const KeyPath& path, const ContactCandidate& con
     if (contact.obstacle.empty())
       checker_.Add(path.Key("obstacle"), TextOrQuotes(contact.obstacle),
                    "must name an obstacle of the scene where there is no surface");
-  } else if (!contact.obstacle.empty()) {
-    checker_.Add(path.Key("obstacle"), contact.obstacle, "must be left out where there is a surface");
+    return;
   }
+  if (!contact.obstacle.empty())
+    checker_.Add(path.Key("obstacle"), contact.obstacle, "must be left out where there is a surface");
+  if (contact.friction < 0.0) checker_.Add(path.Key("friction"), NumberText(contact.friction), "must be >= 0");
 }
 
 void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& contact, const Node& node,

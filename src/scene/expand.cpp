@@ -49,8 +49,9 @@ class Groups {
     for (const Beam& beam : scene.beams) groups_.emplace(beam.name, GroupNodes{&beam.nodes, &beam});
     for (const BoundarySurface& surface : scene.surfaces) surfaces_.emplace(surface.name, &surface);
     for (const Node& node : scene.nodes) nodes_.emplace(node.name, &node);
+    for (std::size_t i = 0; i < scene.solids.size(); ++i)
+      solids_[SolidName(scene.solids[i], i)].push_back(&scene.solids[i]);
     for (const Solid& solid : scene.solids) {
-      solids_.emplace(SolidName(solid, solids_.size()), &solid);
       const std::size_t count = solid.NodesPerElement();
       if (count <= 4) continue;
       for (std::size_t i = 0; i < solid.nodes.size(); ++i)
@@ -67,9 +68,10 @@ class Groups {
     const auto found = surfaces_.find(name);
     return found == surfaces_.end() ? nullptr : found->second;
   }
-  const Solid* FindSolid(const std::string& name) const {
+  // All that have the name.
+  std::vector<const Solid*> FindSolids(const std::string& name) const {
     const auto found = solids_.find(name);
-    return found == solids_.end() ? nullptr : found->second;
+    return found == solids_.end() ? std::vector<const Solid*>() : found->second;
   }
   bool IsMidSide(const std::string& node) const { return mid_sides_.count(node) > 0; }
 
@@ -96,7 +98,7 @@ class Groups {
   std::unordered_map<std::string_view, GroupNodes> groups_;
   std::unordered_map<std::string_view, const BoundarySurface*> surfaces_;
   std::unordered_map<std::string_view, const Node*> nodes_;
-  std::unordered_map<std::string, const Solid*> solids_;
+  std::unordered_map<std::string, std::vector<const Solid*>> solids_;
   std::unordered_set<std::string_view> mid_sides_;  // nodes of solids
 };
 
@@ -153,7 +155,10 @@ template <typename Add>
 void ExpandLoad(Load load, const Groups& groups, Add&& add) {
   if (const BoundarySurface* const surface = groups.FindSurface(load.surface))
     return ExpandTraction(load, *surface, groups, add);
-  if (const Solid* const solid = groups.FindSolid(load.solid)) return ExpandWeight(load, *solid, groups, add);
+  if (const std::vector<const Solid*> solids = groups.FindSolids(load.solid); !solids.empty()) {
+    for (const Solid* const solid : solids) ExpandWeight(load, *solid, groups, add);
+    return;
+  }
   if (!load.beam.empty()) {
     load.group = std::exchange(load.beam, {});
     load.px += std::exchange(load.bx, 0.0);

@@ -119,6 +119,27 @@ TEST(PartRules, WeightsActOnNodes) {
   EXPECT_EQ(scene.contacts[0].node, "disc");
 }
 
+// Names of solids need not differ: the weight is that of all that have it.
+TEST(PartRules, WeightsAreOfAllSolidsOfAName) {
+  TraceRequest request = SoundRequest();
+  request.scene.solids.push_back(request.scene.solids[0]);
+  const Expansion expansion = Expand(request);
+  double force = 0.0;
+  for (std::size_t i = 0; i < expansion.request.scene.loads.size(); ++i)
+    if (expansion.loads[0][i] == 1) force += expansion.request.scene.loads[i].fy;
+  EXPECT_NEAR(force, 2.0 * -0.5 * 5.0 * 2.0, 1e-13);
+}
+
+// A negative friction of a contact with an obstacle stands for that of the obstacle.
+TEST(PartRules, FrictionOfAContact) {
+  TraceRequest request = SoundRequest();
+  for (const auto& [given, is] : {std::pair(-1.0, 0.3), std::pair(0.0, 0.3), std::pair(0.7, 0.7)}) {
+    request.scene.contacts[0].friction = given;
+    EXPECT_TRUE(Validate(request).empty());
+    EXPECT_EQ(request.scene.contacts[0].FrictionWith(request.scene.obstacles[1]), is);
+  }
+}
+
 TEST(PartRules, ACentreBesideTheBodyIsANode) {
   TraceRequest request = SoundRequest();
   request.scene.obstacles[0].px = 0.1;

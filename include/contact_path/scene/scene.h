@@ -257,7 +257,7 @@ struct ContactCandidate {
   std::string obstacle;
   std::string group = {};                   // in place of node
   std::string surface = {};                 // in place of obstacle
-  double friction = 0.0;                    // Coulomb's coefficient, >= 0; with an obstacle, 0 = that of the obstacle
+  double friction = 0.0;                    // Coulomb's coefficient; with an obstacle, <= 0: that of the obstacle
   std::vector<std::string> obstacles = {};  // in place of node and obstacle: the circle, and what it may touch
 
   bool OnSurface() const { return !surface.empty(); }
@@ -272,7 +272,7 @@ template <typename P>
 constexpr auto Fields(Of<ContactCandidate>) {
   return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
                     Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle).OrNone(), Member("group", &P::group),
-                    Member("surface", &P::surface), Member("friction", &P::friction).Within(Range::kNotNegative),
+                    Member("surface", &P::surface), Member("friction", &P::friction),
                     Member("obstacles", &P::obstacles).Naming(TextKind::kObstacle));
 }
 
