@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "check/surfaces.h"
+#include "check/tendon_pieces.h"
 #include "contact_path/scene/expand.h"
 
 namespace contact_path::check {
@@ -276,6 +277,10 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
       contacts.push_back(std::make_unique<BoundaryContact>(
           node, surface, numbers.at(scene.surfaces[surface].nodes.front()), contact.friction,
           PatchesLeftOutFor(contact.node, scene.surfaces[surface], scene, numbers)));
+      continue;
+    }
+    if (contact.at_eye) {
+      contacts.push_back(MakeEye(contact, scene, numbers));
       continue;
     }
     const auto obstacle = obstacles.find(contact.obstacle);

@@ -23,6 +23,7 @@ class PlacedState {
   PlacedState(const CheckedState& state, const std::vector<Boundary>& boundaries)
       : state_(state), boundaries_(boundaries), shapes_(boundaries.size()) {}
 
+  const std::vector<double>& Positions() const { return state_.positions; }
   Vector Place(std::size_t node) const { return NodePosition(state_.positions, node); }
   Real Rotation(std::size_t node) const { return state_.rotations[node]; }
   Real LoadFactor() const { return state_.load_factor; }
@@ -43,6 +44,8 @@ class Contact {
 
   std::size_t Node() const { return node_; }
   Real Friction() const { return friction_; }
+  // The largest |r_t| / r_n in a state.
+  virtual Real FrictionIn(const PlacedState&) const { return friction_; }
   // Whether it gives way, being one of a body.
   virtual bool Gives() const { return false; }
   // By its place in the scene; nothing of an obstacle.

@@ -9,6 +9,8 @@
 #include <string>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "check/tendon_pieces.h"
+
 namespace contact_path::check {
 namespace {
 
@@ -315,6 +317,11 @@ std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, con
   std::vector<std::unique_ptr<const Element>> elements;
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
     for (const auto& part : parts) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Tendon>)
+        if (part.IsPiece()) {
+          elements.push_back(MakePiece(part, scene, numbers));
+          continue;
+        }
       std::vector<std::size_t> nodes;
       for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
       Place(part, scene, nodes, reference, &elements);

@@ -251,14 +251,14 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
         contact.LawfulSlip(from, to) / scaling.length + give * (static_cast<Real>(now.rt[i]) - before.rt[i]);
     const Real unit = scene.contact_units[i];
     const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
-    const Real bound = contact.Friction() * std::max(rn, 0.0L);
+    const Real friction = contact.FrictionIn(to), bound = friction * std::max(rn, 0.0L);
     residuals.equilibrium =
         Worst(residuals.equilibrium, contact.Imbalance(to, now.rn[i], now.rt[i], scaling.length) / unit);
     residuals.penetration = Worst(residuals.penetration, -gap);
     residuals.tensile_reaction = Worst(residuals.tensile_reaction, -rn);
     const Real reaction = rn < 0.0L ? rn : std::max(rn, std::abs(rt));
     residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, reaction)));
-    residuals.cone = Worst(residuals.cone, std::abs(rt) - contact.Friction() * rn);
+    residuals.cone = Worst(residuals.cone, std::abs(rt) - friction * rn);
     residuals.friction_law = Worst(residuals.friction_law, std::abs(rt - std::clamp(rt - slip, -bound, bound)));
   }
   return residuals;
@@ -284,7 +284,7 @@ CheckedForces ResidualCheck::Forces(const CheckedState& state) const {
   std::vector<std::array<Real, 3>> sums(scene.num_touched);
   const check::PlacedState placed = scene.Placed(state);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
+    if ((state.rn[i] == 0.0 && state.rt[i] == 0.0) || scene.touched_by[i] == scene.num_touched) continue;
     const check::Contact::OnNode on_node = scene.contacts[i]->ForceOnNode(placed, state.rn[i], state.rt[i]);
     std::array<Real, 3>& sum = sums[scene.touched_by[i]];
     sum[0] += on_node.force.x;

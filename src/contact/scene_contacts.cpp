@@ -1,5 +1,6 @@
 #include "contact_path/contact/scene_contacts.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "contact_path/contact/deformable_pair.h"
 #include "contact_path/contact/rigid_pair.h"
+#include "contact_path/contact/tendon_eye.h"
 #include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/surface.h"
@@ -93,6 +95,17 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       contacts.push_back(std::make_unique<DeformablePair>(on.boundary,
                                                           PatchesFor(candidate.node, surface, on.initial, on.across),
                                                           PlaceOf(structure, node), candidate.friction, force_bounds));
+      continue;
+    }
+    if (candidate.at_eye) {
+      const auto piece = [&](std::size_t end) {
+        const auto found = std::find_if(scene.tendons.begin(), scene.tendons.end(),
+                                        [&](const Tendon& of) { return of.slides[end] == candidate.node; });
+        return MakeSpan(*found, scene, index, structure);
+      };
+      contacts.push_back(std::make_unique<TendonEye>(
+          piece(1), piece(0), Coordinate{structure.Dof(node, 0), scene.nodes[static_cast<std::size_t>(node)].x},
+          candidate.friction));
       continue;
     }
     const std::size_t at = index.Obstacle(candidate.obstacle);

@@ -25,6 +25,14 @@ LawVector Spread(const LawVector& vector, const LawDofs& from, const LawDofs& to
   return spread;
 }
 
+LawVector Gathered(const LawVector& vector, const LawDofs& from, const LawDofs& to) {
+  LawVector own(static_cast<Eigen::Index>(to.size()) + 1);
+  for (std::size_t k = 0; k < to.size(); ++k)
+    own[static_cast<Eigen::Index>(k)] = vector[std::find(from.begin(), from.end(), to[k]) - from.begin()];
+  own[own.size() - 1] = vector[vector.size() - 1];
+  return own;
+}
+
 LawMatrix Spread(const LawMatrix& matrix, const LawDofs& from, const LawDofs& to) {
   const auto places = PlacesIn(to, from);
   const auto size = static_cast<Eigen::Index>(to.size()) + 1;

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "contact_path/law/tendon_span.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
 #include "scene/input_bounds.h"
@@ -18,15 +19,6 @@ static_assert(kMostTendonUnknowns == kMostLawDofs);
 
 enum Limits { kForce, kSlackness };
 
-// The entries of a vector by (dofs, s) that belong to some of them.
-LawVector Gathered(const LawVector& vector, const LawDofs& from, const LawDofs& to) {
-  LawVector own(static_cast<Eigen::Index>(to.size()) + 1);
-  for (std::size_t k = 0; k < to.size(); ++k)
-    own[static_cast<Eigen::Index>(k)] = vector[std::find(from.begin(), from.end(), to[k]) - from.begin()];
-  own[own.size() - 1] = vector[vector.size() - 1];
-  return own;
-}
-
 constexpr int kTaut = NumberOf(BarState::kTaut), kSlack = NumberOf(BarState::kSlack);
 
 }  // namespace
@@ -36,7 +28,7 @@ std::string_view ToString(BarState state) { return state == BarState::kTaut ? "t
 SlackBar::SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length, StrainMeasure strain, BarSense sense)
     : spans_(std::move(spans)),
       rest_length_(rest_length),
-      compliance_(rest_length / EA),
+      EA_(EA),
       sense_(sense == BarSense::kTension ? 1.0 : -1.0),
       strain_(strain) {
   Traits traits;
@@ -52,15 +44,32 @@ SlackBar::SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length
                             ? dofs.size()
                             : static_cast<std::size_t>(std::distance(dofs.begin(), dofs.find(span.Dofs()[k])))] = true;
   }
-  traits.couples = traits.compliant = traits.elastic = traits.curved = true;
-  traits.force_unit = ForceUnitAbove(EA);
   // While the bar is slack: l0 de/dl is l / l0, 1 or l0 / l, and both ends move.
   const bool bounded = affine && (strain == StrainMeasure::kBiot ||
                                   (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension));
   traits.largest_reach_rate =
       bounded ? std::sqrt(2.0) * static_cast<double>(spans_.size()) : std::numeric_limits<double>::infinity();
+  SetBar(traits);
+}
+
+SlackBar::SlackBar(const MovingPlace& span, double EA, double rest_length, const LawDofs& dofs)
+    : spans_{span},
+      rest_length_(rest_length),
+      EA_(EA),
+      sense_(1.0),
+      strain_(StrainMeasure::kBiot) {
+  Traits traits;
+  traits.dofs = dofs;
+  for (std::size_t k = 0; k <= dofs.size(); ++k) traits.moves[0][k] = true;
+  traits.largest_reach_rate = std::numeric_limits<double>::infinity();
+  SetBar(traits);
+}
+
+void SlackBar::SetBar(Traits traits) {
+  traits.couples = traits.compliant = traits.elastic = traits.curved = true;
+  traits.force_unit = ForceUnitAbove(EA_);
   std::vector<StateRule> states(2);
-  states[kTaut].ports[0] = {PortRule::Kind::kHeld, 0.0, compliance_};
+  states[kTaut].ports[0] = {PortRule::Kind::kHeld, 0.0, rest_length_ / EA_};
   LimitRule bears;
   bears.id = kForce;
   bears.of = LimitRule::Of::kForces;
@@ -151,6 +160,10 @@ std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, 
                                                             const std::vector<double>& reference) {
   std::vector<std::unique_ptr<const SlackBar>> bars;
   for (const OneSidedBar& bar : OneSidedBars(scene)) {
+    if (bar.piece != nullptr) {
+      bars.push_back(std::make_unique<const TendonSpan>(MakeSpan(*bar.piece, scene, index, structure)));
+      continue;
+    }
     std::vector<MovingPlace> spans;
     double length = 0.0;
     for (std::size_t k = 1; k < bar.nodes->size(); ++k) {

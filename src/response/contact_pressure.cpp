@@ -45,7 +45,7 @@ PressureProblem::PressureProblem(const Scene& scene, const SceneIndex& index, co
   const std::vector<TouchedBoundary> boundaries = TouchedBoundaries(scene);
   num_boundaries_ = boundaries.size();
   boundary_of_ = BoundaryOfContacts(scene, boundaries);
-  std::vector<std::map<std::size_t, std::size_t>> contact_at(boundaries.size());  // by boundary: node -> contact
+  std::vector<std::map<std::size_t, std::size_t>> contact_at(boundaries.size() + 1);  // node -> contact
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
     contact_at[boundary_of_[i]].emplace(index.Node(scene.contacts[i].node), i);
   for (const Nodes& nodes : BoundaryEdges(scene, index))

@@ -80,11 +80,12 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
     Eigen::Vector2d on_node = Eigen::Vector2d::Zero();
     for (std::size_t j = 0; j < at.dofs.size(); ++j) {
       const auto entry = static_cast<Eigen::Index>(j);
-      const double force = rn * at[kNormal].gradient[entry] + rt * at[kTangent].factor * at[kTangent].gradient[entry];
+      const double force = rn * at[kNormal].factor * at[kNormal].gradient[entry] + rt * at[kTangent].factor * at[kTangent].gradient[entry];
       missing[at.dofs[j]] -= force;
       for (const int axis : {0, 1})
         if (at.dofs[j] == node[static_cast<std::size_t>(axis)].dof) on_node[axis] = force;
     }
+    if (boundary_of_[i] == boundaries_.size()) continue;
     Resultant& sum = reactions.boundaries[boundary_of_[i]];
     sum.rx += scaling_.force * on_node.x();
     sum.ry += scaling_.force * on_node.y();

@@ -51,7 +51,7 @@ void ContactRules::CheckContacts(double length) {
   std::set<std::string> earlier;
   for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
     const ContactCandidate& contact = scene_.contacts[i];
-    if (contact.Rolls() && contact.obstacle.empty()) continue;  // known to be wrong
+    if ((contact.Rolls() && contact.obstacle.empty()) || contact.at_eye) continue;  // known to be wrong, or sound
     const KeyPath path = list[checker_.ContactPlace(i)];
     checker_.CheckFields(path, contact);
     CheckPartner(path, contact);

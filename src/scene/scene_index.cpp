@@ -98,7 +98,7 @@ std::vector<TouchedBoundary> TouchedBoundaries(const Scene& scene) {
   for (const ContactCandidate& contact : scene.contacts) {
     if (contact.OnSurface())
       surfaces.insert(contact.surface);
-    else
+    else if (!contact.at_eye)
       obstacles.insert(contact.obstacle);
   }
   std::vector<TouchedBoundary> touched;
@@ -115,7 +115,9 @@ std::vector<std::size_t> BoundaryOfContacts(const Scene& scene, const std::vecto
     (boundaries[i].is_surface ? surfaces : obstacles).emplace(boundaries[i].name, i);
   std::vector<std::size_t> touched;
   for (const ContactCandidate& contact : scene.contacts)
-    touched.push_back(contact.OnSurface() ? surfaces.at(contact.surface) : obstacles.at(contact.obstacle));
+    touched.push_back(contact.at_eye        ? boundaries.size()
+                      : contact.OnSurface() ? surfaces.at(contact.surface)
+                                            : obstacles.at(contact.obstacle));
   return touched;
 }
 

@@ -68,8 +68,13 @@ class StructureRules {
         checker_.Add(kScene.Key("bars")[i].Key("name"), name, "must not be that of the place of another bar");
     }
     for (const Beam& beam : scene_.beams) earlier.insert(beam.name);  // whose sections have names alike
-    for (std::size_t i = 0; i < scene_.tendons.size(); ++i)
-      checker_.CheckName(kScene.Key("tendons")[i].Key("name"), TendonName(scene_.tendons[i], i), &earlier);
+    for (std::size_t i = 0; i < scene_.tendons.size(); ++i) {
+      const Tendon& tendon = scene_.tendons[i];
+      if (tendon.IsPiece() && !tendon.slides[0].empty()) continue;  // it has its name from the first one
+      const std::string name = TendonName(tendon, i);
+      checker_.CheckName(kScene.Key("tendons")[i].Key("name"),
+                         tendon.IsPiece() ? name.substr(0, name.rfind('/')) : name, &earlier);
+    }
   }
 
  private:
@@ -101,7 +106,9 @@ class StructureRules {
     if constexpr (std::is_same_v<Part, Bar>) {
       CheckTwoNodes(&checker_, nodes, element.nodes);
     } else if constexpr (std::is_same_v<Part, Tendon>) {
-      CheckSpans(nodes, element.nodes);
+      CheckSpans(nodes, element.nodes, element.IsPiece());
+      if (element.friction > 0.0 && element.nodes.size() == 2)
+        checker_.Add(path.Key("friction"), NumberText(element.friction), "must be 0 without a node between its ends");
     } else if constexpr (!std::is_same_v<Part, Solid>) {  // of a mesh, each element has nodes of its own
       CheckNodeList(nodes, element.nodes);
     }
@@ -116,7 +123,7 @@ class StructureRules {
         checker_.Add(key[i], nodes[i], "must not be repeated");
   }
 
-  void CheckSpans(const KeyPath& key, const std::vector<std::string>& nodes) {
+  void CheckSpans(const KeyPath& key, const std::vector<std::string>& nodes, bool piece) {
     if (nodes.size() < 2) return checker_.Add(key, ListText(nodes), "must name two nodes at least");
     std::set<std::pair<std::string, int>> unknowns;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -131,7 +138,7 @@ class StructureRules {
       if (!moves.fixed_y) unknowns.emplace(moves.name, 1);
       if (IsBody(moves) && !moves.fixed_rotation) unknowns.emplace(moves.name, 2);
     }
-    if (unknowns.size() > kMostTendonUnknowns)
+    if (!piece && unknowns.size() > kMostTendonUnknowns)
       checker_.Add(key, ListText(nodes),
                    "must have at most " + std::to_string(kMostTendonUnknowns) + " unknowns that move its nodes: has " +
                        std::to_string(unknowns.size()));

@@ -115,6 +115,58 @@ class TendonElement : public Element {
   std::vector<LocalDof> dofs_;
 };
 
+// A piece of a tendon with friction, whose tension is asked for: of two nodes, and then of those whose x tells what has
+// slid in or out.
+class PieceElement : public Element {
+ public:
+  // senses: 1 of what slides in, -1 of what slides out; at the start: at `starts`.
+  PieceElement(double EA, double rest_length, std::vector<double> senses, std::vector<double> starts)
+      : EA_(EA),
+        rest_length_(rest_length),
+        senses_(std::move(senses)),
+        starts_(std::move(starts)),
+        dofs_(PositionsOfNodes(2 + static_cast<int>(senses_.size()))) {}
+
+  const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+    const double tension = Tension(x);
+    return 0.5 * Rest(x) * tension * tension / EA_;
+  }
+  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
+    const double tension = Tension(x);
+    const Eigen::Vector2d span = x.segment<2>(2) - x.head<2>();
+    force.setZero();
+    if (!(tension > 0.0)) return;
+    force.head<2>() = -tension * span.normalized();
+    force.segment<2>(2) = tension * span.normalized();
+    for (std::size_t k = 0; k < senses_.size(); ++k)
+      force[4 + 2 * static_cast<Eigen::Index>(k)] = -senses_[k] * tension * (1.0 + 0.5 * tension / EA_);
+  }
+  // Paths are traced with its law (law/tendon_span.h).
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
+    tangent.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>&, const Eigen::Ref<const Eigen::VectorXd>&,
+                         Eigen::Ref<Eigen::MatrixXd> derivative) const override {
+    derivative.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+ private:
+  double Rest(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    double rest = rest_length_;
+    for (std::size_t k = 0; k < senses_.size(); ++k)
+      rest += senses_[k] * (x[4 + 2 * static_cast<Eigen::Index>(k)] - starts_[k]);
+    return rest;
+  }
+  double Tension(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    return EA_ * std::max((x.segment<2>(2) - x.head<2>()).norm() / Rest(x) - 1.0, 0.0);
+  }
+
+  double EA_, rest_length_;
+  std::vector<double> senses_, starts_;
+  std::vector<LocalDof> dofs_;
+};
+
 // Places of the nodes of an element in the reference shape.
 Eigen::VectorXd PositionsOf(const std::vector<int>& nodes, const std::vector<double>& reference) {
   Eigen::VectorXd positions(2 * static_cast<Eigen::Index>(nodes.size()));
@@ -137,6 +189,18 @@ void Place(const Bar& bar, std::vector<int> nodes, const std::vector<double>& re
 void Place(const Tendon& tendon, std::vector<int> nodes, const std::vector<double>& reference,
            std::vector<PlacedElement>* elements) {
   const Eigen::VectorXd places = PositionsOf(nodes, reference);
+  if (tendon.IsPiece()) {
+    std::vector<double> senses, starts;
+    for (const bool in : {true, false})
+      if (!tendon.slides[in ? 0 : 1].empty()) {
+        starts.push_back(places[4 + 2 * static_cast<Eigen::Index>(senses.size())]);
+        senses.push_back(in ? 1.0 : -1.0);
+      }
+    elements->push_back(
+        {std::make_unique<PieceElement>(tendon.EA, tendon.rest_length, std::move(senses), std::move(starts)),
+         std::move(nodes)});
+    return;
+  }
   double length = 0.0;
   for (Eigen::Index k = 0; k + 2 < places.size(); k += 2)
     length += (places.segment<2>(k + 2) - places.segment<2>(k)).norm();
@@ -200,6 +264,9 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
           if (bars == OneSided::kLaws) continue;
         std::vector<int> nodes;
         for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
+        if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Tendon>)
+          for (const std::string& slide : part.slides)
+            if (!slide.empty()) nodes.push_back(static_cast<int>(index.Node(slide)));
         Place(part, std::move(nodes), reference, &elements);
       }
     }

@@ -30,7 +30,7 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     if (motion.turn != 0.0) turning.insert(motion.obstacle);
   // Of an obstacle where the node cannot slide: none.
   const auto friction_of = [&](const ContactCandidate& candidate, std::size_t at) {
-    if (candidate.OnSurface()) return candidate.friction;
+    if (candidate.OnSurface() || candidate.at_eye) return candidate.friction;
     const Obstacle& obstacle = scene.obstacles[index.Obstacle(candidate.obstacle)];
     const Node& node = scene.nodes[at];
     const bool can_slide =

@@ -80,6 +80,10 @@ class ContactPair : public Law {
   // xi, measured from 0.
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
 
+  // r_t of the force of port 1, and the other way.
+  virtual double OnRecord(const Eigen::VectorXd& /*u*/, double /*s*/, double force) const { return force; }
+  virtual double FromRecord(const Eigen::VectorXd& /*u*/, double /*s*/, double rt) const { return rt; }
+
   double Motion(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
                 const PortReals& reference) const override;
   PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int patch) const override {
@@ -118,7 +122,8 @@ class ContactPair : public Law {
     std::optional<double> slip_origin;  // xi_0 of the total law
     double round = 0.0;                 // length of a closed surface
     bool deformable = false;
-    double compliance = 0.0;  // of ports that are held: scaled motion per force
+    double compliance = 0.0;    // of ports that are held: scaled motion per force
+    bool tangent_gives = true;  // whether it is that of the tangential port, too
   };
   // Set once, by the constructor of the pair. traits.largest_ratio: mu.
   void SetContact(Traits traits, const SurfaceTraits& surface_traits);

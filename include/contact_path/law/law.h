@@ -143,7 +143,7 @@ class Law {
   // Those of ports that are held and give way by a compliance of their own; the others are 0.
   PortReals CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const;
   // Stored in the compliance of its ports [force length].
-  double Energy(const Mode& mode, const PortReals& forces) const;
+  virtual double Energy(const Mode& mode, const PortReals& forces) const;
 
   // References at a place from which an arc sets out.
   virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;

@@ -19,6 +19,8 @@ using PortReals = std::array<double, kMostPorts>;
 // By (dofs, s) of some of the dofs of another list: by all of them, with zeros.
 LawVector Spread(const LawVector& vector, const LawDofs& from, const LawDofs& to);
 LawMatrix Spread(const LawMatrix& matrix, const LawDofs& from, const LawDofs& to);
+// The entries of a vector by (dofs, s) that belong to some of them.
+LawVector Gathered(const LawVector& vector, const LawDofs& from, const LawDofs& to);
 
 // A force of the port exerts force * factor * gradient on the structure. factor * d(motion) is what the force works
 // along: the factor is other than 1 where the motion is not a length, as along a surface that stretches.

@@ -47,7 +47,16 @@ class SlackBar : public Law {
     return {{{1.0}, {1.0}}};
   }
 
+  double EA() const { return EA_; }  // [force]
+
+ protected:
+  // A tendon of one span with motions of its own, which every entry of `dofs` changes.
+  SlackBar(const MovingPlace& span, double EA, double rest_length, const LawDofs& dofs);
+  const MovingPlace& Span() const { return spans_.front(); }
+  double RestLength() const { return rest_length_; }
+
  private:
+  void SetBar(Traits traits);
   // By the square of the length.
   struct Strain {
     double value, first, second, third;
@@ -55,7 +64,7 @@ class SlackBar : public Law {
   Strain StrainAt(double q) const;
 
   std::vector<MovingPlace> spans_;
-  double rest_length_, compliance_, sense_;
+  double rest_length_, EA_, sense_;
   StrainMeasure strain_;
 };
 

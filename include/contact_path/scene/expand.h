@@ -25,10 +25,14 @@ struct OneSidedBar {
   double EA, rest_length;                 // rest_length: as the scene has it
   StrainMeasure strain;
   BarSense sense;
+  const Tendon* piece = nullptr;  // of a tendon with friction
 };
 
 // Bars, then tendons, in the order of the scene.
 std::vector<OneSidedBar> OneSidedBars(const Scene& scene);
+
+// Whether it slides through an eye with friction, and is not expanded.
+bool RubsAtEyes(const Tendon& tendon);
 
 // The number of its segments, given or by default.
 int BeamSegments(const Beam& beam);

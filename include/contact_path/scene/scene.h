@@ -10,6 +10,7 @@
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -127,13 +128,20 @@ struct Tendon {
   std::vector<std::string> nodes;  // two names at least; a name may come again
   double EA = 0.0;                 // [force], > 0
   double rest_length = 0.0;        // l0 [length]; 0 = the sum of the distances at the start
+  double friction = 0.0;           // Coulomb's coefficient at each node but the first and the last
+
+  // Of one of the pieces that a tendon with friction is in an expanded scene: the nodes whose x tells what has slid
+  // through its first eye and its second one; empty at an end of the tendon. No field.
+  std::array<std::string, 2> slides = {};
+  bool IsPiece() const { return !slides[0].empty() || !slides[1].empty(); }
 };
 
 template <typename P>
 constexpr auto Fields(Of<Tendon>) {
   return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes).Naming(TextKind::kNode),
                     Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
-                    Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive));
+                    Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive),
+                    Member("friction", &P::friction).Within(Range::kZeroOrPositive));
 }
 
 // Linear elastic part: force = K (x - X), both ordered x0, y0, x1, y1, ... over `nodes`.
@@ -259,6 +267,10 @@ struct ContactCandidate {
   std::string surface = {};                 // in place of obstacle
   double friction = 0.0;                    // Coulomb's coefficient; with an obstacle, <= 0: that of the obstacle
   std::vector<std::string> obstacles = {};  // in place of node and obstacle: the circle, and what it may touch
+
+  // In an expanded scene: the node is that of what has slid through an eye of a tendon, `obstacle` names the eye. No
+  // field.
+  bool at_eye = false;
 
   bool OnSurface() const { return !surface.empty(); }
   bool Rolls() const { return !obstacles.empty(); }

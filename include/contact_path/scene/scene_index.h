@@ -68,6 +68,7 @@ struct TouchedBoundary {
 std::vector<TouchedBoundary> TouchedBoundaries(const Scene& scene);
 
 // By contact candidate, in scene order: which of these boundaries it may touch. boundaries: TouchedBoundaries(scene).
+// Of an eye of a tendon: their number.
 std::vector<std::size_t> BoundaryOfContacts(const Scene& scene, const std::vector<TouchedBoundary>& boundaries);
 
 // Places in the lists of a scene, from 0. The stages of a program, which have the same lists, share an index. Of

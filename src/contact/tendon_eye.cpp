@@ -1,0 +1,170 @@
+#include "contact_path/contact/tendon_eye.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <unsupported/Eigen/AutoDiff>
+
+namespace contact_path {
+namespace {
+
+constexpr double kStraight = 1e-5;  // [rad]
+
+template <typename Number>
+Number Tension(double EA, const Number& dx, const Number& dy, const Number& rest) {
+  using std::sqrt;
+  return EA * (sqrt(dx * dx + dy * dy) / rest - 1.0);
+}
+
+LawDofs AllDofs(const TendonSpan& before, const TendonSpan& behind) {
+  std::set<int> dofs;
+  for (const LawDofs& of : {before.Dofs(0), behind.Dofs(0)}) dofs.insert(of.begin(), of.end());
+  LawDofs all;
+  for (const int dof : dofs) all.push_back(dof);
+  return all;
+}
+
+}  // namespace
+
+TendonEye::TendonEye(const TendonSpan& before, const TendonSpan& behind, const Coordinate& slid, double friction)
+    : before_(before),
+      behind_(behind),
+      slid_(slid),
+      friction_(friction),
+      compliance_(std::min(before.Compliance(), behind.Compliance())) {
+  Traits traits;
+  traits.dofs = AllDofs(before, behind);
+  traits.couples = traits.compliant = traits.elastic = traits.curved = true;
+  traits.largest_ratio = 1.0;
+  traits.force_unit = before.ForceUnit();
+  traits.largest_reach_rate = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k <= traits.dofs.size(); ++k) {
+    traits.moves[kNormal][k] = true;
+    traits.moves[kTangent][k] = k < traits.dofs.size() && traits.dofs[k] == slid.dof;
+  }
+  SurfaceTraits of_eye;
+  of_eye.compliance = compliance_;
+  of_eye.tangent_gives = false;
+  SetContact(traits, of_eye);
+}
+
+Eigen::Index TendonEye::SlidEntry() const {
+  return std::find(OwnDofs().begin(), OwnDofs().end(), slid_.dof) - OwnDofs().begin();
+}
+
+XiRange TendonEye::RangeOf(int /*patch*/) const {
+  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+}
+
+TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
+  using Once = Eigen::AutoDiffScalar<Gradient>;
+  using Twice = Eigen::AutoDiffScalar<Eigen::Matrix<Once, kLocals, 1>>;
+  using std::atan2;
+  using std::sqrt;
+  using std::tanh;
+  const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
+  const Gradient values =
+      (Gradient() << before.span.x, before.rest, behind.span.x, behind.rest).finished();
+  std::array<Twice, kLocals> z;
+  for (int k = 0; k < kLocals; ++k) {
+    Once once(values[k], kLocals, k);
+    z[static_cast<std::size_t>(k)] = Twice(once, kLocals, k);
+  }
+  const Twice sum = Tension(before_.EA(), z[0], z[1], z[2]) + Tension(behind_.EA(), z[3], z[4], z[5]);
+  const Twice turn = atan2(Twice(z[0] * z[4] - z[1] * z[3]), Twice(z[0] * z[3] + z[1] * z[4]));
+  const Twice rounded = sqrt(Twice(turn * turn + kStraight * kStraight));
+  const Twice share = tanh(Twice(rounded * (0.5 * friction_))) * (sum * (0.5 / before_.EA()) + 1.0);
+  const auto function_of = [](const Twice& of) {
+    Function function;
+    function.value = of.value().value();
+    for (int i = 0; i < kLocals; ++i) {
+      function.gradient[i] = of.derivatives()[i].value();
+      function.hessian.row(i) = of.derivatives()[i].derivatives().transpose();
+    }
+    return function;
+  };
+
+  const LawDofs& dofs = OwnDofs();
+  const auto size = static_cast<Eigen::Index>(dofs.size()) + 1;
+  Eigen::Matrix<double, kLocals, Eigen::Dynamic, 0, kLocals, kMostLawDofs + 1> by_q(kLocals, size);
+  Eigen::Index row = 0;
+  for (const auto& [span, at] : {std::pair(&before_, &before), std::pair(&behind_, &behind)}) {
+    for (const Eigen::Index axis : {0, 1})
+      by_q.row(row++) = Spread(LawVector(at->span.first.row(axis).transpose()), span->Span().Dofs(), dofs).transpose();
+    by_q.row(row++) = span->RestGradient(dofs).transpose();
+  }
+  Place place{function_of(sum), function_of(share), {}, {}, {}, {}};
+  const auto by_place = [&](const Function& of, LawVector* gradient, LawMatrix* hessian) {
+    *gradient = by_q.transpose() * of.gradient;
+    *hessian = by_q.transpose() * of.hessian * by_q;
+    *hessian += Spread(before.span.Second(of.gradient.head<2>()), before_.Span().Dofs(), dofs);
+    *hessian += Spread(behind.span.Second(of.gradient.segment<2>(3)), behind_.Span().Dofs(), dofs);
+  };
+  by_place(place.sum, &place.sum_gradient, &place.sum_hessian);
+  by_place(place.share, &place.share_gradient, &place.share_hessian);
+  return place;
+}
+
+void TendonEye::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& reference,
+                         PortsAt* ports) const {
+  const Place at = At(u, s);
+  const auto size = static_cast<Eigen::Index>(OwnDofs().size()) + 1;
+  ports->dofs = OwnDofs();
+  PortAt &sum = (*ports)[kNormal], &slid = (*ports)[kTangent];
+  sum.motion = -compliance_ * at.sum.value;
+  sum.gradient = -compliance_ * at.sum_gradient;
+  sum.hessian = -compliance_ * at.sum_hessian;
+  sum.factor = 0.0;
+  slid.motion = u[slid_.dof] - slid_.held - reference[kTangent];
+  slid.gradient = LawVector::Zero(size);
+  slid.gradient[SlidEntry()] = 1.0;
+  slid.hessian = LawMatrix::Zero(size, size);
+  slid.factor = at.share.value;
+  slid.factor_gradient = at.share_gradient;
+}
+
+double TendonEye::Gap(const Eigen::VectorXd& u, double s, int /*piece*/) const {
+  const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
+  return -compliance_ * (Tension(before_.EA(), before.span.x.x(), before.span.x.y(), before.rest) +
+                         Tension(behind_.EA(), behind.span.x.x(), behind.span.x.y(), behind.rest));
+}
+
+void TendonEye::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
+                             const LawVector& weights, LawMatrix* hessian) const {
+  *hessian = (weights[SlidEntry()] * forces[kTangent]) * At(u, s).share_hessian;
+}
+
+LawVector TendonEye::SecondDirectional(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
+                                       const LawVector& direction) const {
+  LawVector second = LawVector::Zero(direction.size());
+  second[SlidEntry()] = forces[kTangent] * direction.dot(At(u, s).share_hessian * direction);
+  return second;
+}
+
+Eigen::Vector3d TendonEye::FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int /*piece*/,
+                                       const LawVector& first, const LawVector& second) const {
+  if (port == kNormal) return Eigen::Vector3d::Zero();
+  const Place at = At(u, s);
+  return {at.share.value, at.share_gradient.dot(first),
+          first.dot(at.share_hessian * first) + at.share_gradient.dot(second)};
+}
+
+double TendonEye::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int /*piece*/,
+                         const Eigen::VectorXd& du, double ds, int /*piece_after*/) const {
+  if (port == kNormal) return 0.0;
+  return 0.5 * (At(u, s).share.value + At(u + du, s + ds).share.value) * du[slid_.dof];
+}
+
+double TendonEye::OnRecord(const Eigen::VectorXd& u, double s, double force) const {
+  const Place at = At(u, s);
+  return force * at.share.value / (1.0 + 0.5 * at.sum.value / before_.EA());
+}
+
+double TendonEye::FromRecord(const Eigen::VectorXd& u, double s, double reaction) const {
+  const Place at = At(u, s);
+  return reaction * (1.0 + 0.5 * at.sum.value / before_.EA()) / at.share.value;
+}
+
+}  // namespace contact_path
