@@ -46,6 +46,8 @@ class Contact {
   Real Friction() const { return friction_; }
   // The largest |r_t| / r_n in a state.
   virtual Real FrictionIn(const PlacedState&) const { return friction_; }
+  // What works along the slip over r_t.
+  virtual Real Stretch(Real /*rn*/) const { return 1.0L; }
   // Whether it gives way, being one of a body.
   virtual bool Gives() const { return false; }
   // By its place in the scene; nothing of an obstacle.

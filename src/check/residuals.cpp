@@ -360,6 +360,16 @@ double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const 
   return static_cast<double>(prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to)));
 }
 
+double ResidualCheck::Friction(std::size_t contact, const CheckedState& state) const {
+  return static_cast<double>(prepared_->contacts[contact]->FrictionIn(prepared_->Placed(state)));
+}
+
+double ResidualCheck::SlidingForce(std::size_t contact, const CheckedState& state) const {
+  const check::Contact& of = *prepared_->contacts[contact];
+  const double rn = state.rn[contact];
+  return Friction(contact, state) * rn * static_cast<double>(of.Stretch(rn));
+}
+
 double ResidualCheck::TotalSlip(std::size_t contact, const CheckedState& state) const {
   const std::optional<Real> slip = prepared_->contacts[contact]->TotalSlip(prepared_->Placed(state));
   if (!slip) throw std::invalid_argument("the law of friction is not total");

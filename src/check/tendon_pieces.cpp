@@ -102,8 +102,9 @@ class EyeContact : public Contact {
   }
   // The string stretches, and slides by 1 + tension / EA of its length at rest: the mean of both sides.
   void AddForces(const PlacedState&, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
-    (*forces)[2 * Node()] += factor * rt * (1.0L + 0.5L * rn / before_.EA());
+    (*forces)[2 * Node()] += factor * rt * Stretch(rn);
   }
+  Real Stretch(Real rn) const override { return 1.0L + 0.5L * rn / before_.EA(); }
   OnNode ForceOnNode(const PlacedState&, Real, Real) const override { return {}; }
   Real Imbalance(const PlacedState& state, Real rn, Real rt, Real) const override {
     const Real before = before_.SignedTension(state.Positions()), behind = behind_.SignedTension(state.Positions());

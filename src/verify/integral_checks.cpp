@@ -227,7 +227,7 @@ Integral IntegralChecks::Dissipation(const ThreeStates& states, const ThreePoint
     };
     ThreeValues force{}, slip{0.0, slip_between(0, 1), 0.0};
     for (std::size_t k = 0; k < (rule.HasThird() ? 3 : 2); ++k)
-      force[k] = total_law ? -states[k].rt[i] : stage_.contacts[i].friction * states[k].rn[i];
+      force[k] = total_law ? -states[k].rt[i] : stage_.check.SlidingForce(i, states[k]);
     double across = 0.0;
     if (rule.HasThird()) {
       // On a surface that deforms, slip is a mean of two lengths, with an error of third order.

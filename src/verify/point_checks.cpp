@@ -104,7 +104,13 @@ void PointChecks::CheckBars(const Increment& at, double tolerance) {
       }
       return sum;
     };
-    const double rest = bar.rest_length > 0.0 ? bar.rest_length : length(stage_.configuration.reference);
+    double rest = bar.rest_length > 0.0 ? bar.rest_length : length(stage_.configuration.reference);
+    if (bar.piece != nullptr)
+      for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+        if (const std::string& slide = bar.piece->slides[end]; !slide.empty()) {
+          const std::size_t node = stage_.index.Node(slide);
+          rest += (end == 0 ? 1.0 : -1.0) * (at.positions[2 * node] - stage_.scene.nodes[node].x);
+        }
     const double longer = (length(at.positions) - rest) / stage_.scaling.length;
     const bool taut = at.bars[k] == BarState::kTaut;
     if ((bar.sense == BarSense::kTension) == taut ? longer < -tolerance : longer > tolerance)
@@ -142,7 +148,7 @@ void PointChecks::CheckContact(std::size_t i, const ContactRecord& contact, cons
   if (contact.state == ContactState::kClosed) holds = holds && std::abs(rt) <= tolerance && at.friction == 0.0;
   if (contact.state == ContactState::kStick) holds = holds && std::abs(slip) <= tolerance_of_slip;
   if (Slips(contact.state)) {
-    const double sense = contact.state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = at.friction * rn;
+    const double sense = contact.state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = stage_.check.Friction(i, state) * rn;
     // A friction force that is rounding tells no sense of the slip.
     const bool rubs = bound > at.closing * at.unit;
     holds = holds && (!rubs || sense * slip >= -tolerance_of_slip) && std::abs(rt + sense * bound) <= tolerance;
@@ -243,7 +249,7 @@ void PointChecks::CheckSoftContacts(const Increment& increment) {
     findings_.Bound("gap and reaction of " + at.name + " are both positive",
                     std::min(increment.contacts[i].gap / stage_.scaling.length, rn), kExact);
     findings_.Bound("reaction of " + at.name + " outside of the friction cone, of the forces there",
-                    std::abs(rt) - at.friction * rn, kExact);
+                    std::abs(rt) - stage_.check.Friction(i, state) * rn, kExact);
   }
 }
 

@@ -104,6 +104,9 @@ class ResidualCheck {
   // radius, the gap changes by the radius there.
   double GapPastEnd(std::size_t contact, const CheckedState& state) const;
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
+  // The largest |rt| / rn, and what works along the slip where the contact slides [force].
+  double Friction(std::size_t contact, const CheckedState& state) const;
+  double SlidingForce(std::size_t contact, const CheckedState& state) const;
   // What forces may be off by where curvatures jump below contacts that give way [force].
   double Uncertain(const CheckedState& state) const;
   // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body.
