@@ -164,9 +164,11 @@ class Parts(Loading):
         self._add('contacts', locals())
 
     @named
-    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0) -> None:
-        """A string through nodes, along which it slides without friction: stiffness EA [force], rest_length [length], 0: the sum of the
-        distances at the start. It bears tension alone."""
+    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0,
+               friction: float = 0.0) -> None:
+        """A string through nodes, along which it slides: stiffness EA [force], rest_length [length], 0: the sum of the distances at the
+        start. It bears tension alone. friction: Coulomb's coefficient at the nodes between its ends, where the tensions before and behind
+        differ by at most the factor exp(friction angle)."""
         self._add('tendons', locals())
 
     @named

@@ -327,6 +327,8 @@ std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, con
       Place(part, scene, nodes, reference, &elements);
     }
   });
+  for (const ContactCandidate& contact : scene.contacts)
+    if (contact.at_eye) elements.push_back(MakeEvenStrain(contact, scene, numbers));
   return elements;
 }
 

@@ -53,6 +53,13 @@ class Piece {
   std::vector<Slide> slides_;
 };
 
+// The piece that has the eye at its end.
+Piece PieceAt(const ContactCandidate& eye, std::size_t end, const Scene& scene, const NodeNumbers& numbers) {
+  return Piece(*std::find_if(scene.tendons.begin(), scene.tendons.end(),
+                             [&](const Tendon& of) { return of.slides[end] == eye.node; }),
+               scene, numbers);
+}
+
 // W = EA (l - a)^2 / (2 a), l the length and a that at rest, where l > a.
 class PieceElement : public Element {
  public:
@@ -81,6 +88,49 @@ class PieceElement : public Element {
   Piece piece_;
 };
 
+constexpr Real kSoft = 1e-8L;
+
+// W = k (l1 / a1 - l2 / a2)^2 / 2, k = kSoft EA times the shorter length at rest.
+class EvenStrainElement : public Element {
+ public:
+  EvenStrainElement(Piece before, Piece behind)
+      : Element(Kind::kLinearPart, Joined(before.Nodes(), behind.Nodes())),
+        before_(std::move(before)),
+        behind_(std::move(behind)),
+        stiffness_(kSoft * before_.EA() * std::min(before_.RestAtStart(), behind_.RestAtStart())) {}
+
+  Real Stiffness() const override { return kSoft * before_.EA() / before_.RestAtStart(); }
+  void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
+    const Real uneven = Ratio(before_, positions) - Ratio(behind_, positions);
+    *energy += 0.5L * stiffness_ * uneven * uneven;
+  }
+  void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
+    const Real force = stiffness_ * (Ratio(before_, positions) - Ratio(behind_, positions));
+    for (const auto& [piece, sign] : {std::pair(&before_, 1.0L), std::pair(&behind_, -1.0L)}) {
+      const Vector span = piece->Span(positions);
+      const Real rest = piece->Rest(positions);
+      const Vector pull = sign * force / (rest * Length(span)) * span;
+      AddTo(forces, piece->Nodes()[0], -1.0L * pull);
+      AddTo(forces, piece->Nodes()[1], pull);
+      for (const Piece::Slide& slide : piece->Slides())
+        (*forces)[2 * slide.node] -= sign * force * slide.sense * Ratio(*piece, positions) / rest;
+    }
+  }
+
+ private:
+  static Real Ratio(const Piece& piece, const std::vector<double>& positions) {
+    return Length(piece.Span(positions)) / piece.Rest(positions);
+  }
+  static std::vector<std::size_t> Joined(std::vector<std::size_t> nodes, const std::vector<std::size_t>& more) {
+    for (const std::size_t node : more)
+      if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+    return nodes;
+  }
+
+  Piece before_, behind_;
+  Real stiffness_;
+};
+
 class EyeContact : public Contact {
  public:
   EyeContact(std::size_t node, Real friction, Piece before, Piece behind)
@@ -106,9 +156,8 @@ class EyeContact : public Contact {
   }
   Real Stretch(Real rn) const override { return 1.0L + 0.5L * rn / before_.EA(); }
   OnNode ForceOnNode(const PlacedState&, Real, Real) const override { return {}; }
-  Real Imbalance(const PlacedState& state, Real rn, Real rt, Real) const override {
-    const Real before = before_.SignedTension(state.Positions()), behind = behind_.SignedTension(state.Positions());
-    return std::max(std::abs(rn - before - behind), std::abs(rt - before + behind));
+  Real Imbalance(const PlacedState& state, Real rn, Real, Real) const override {
+    return std::abs(rn - before_.SignedTension(state.Positions()) - behind_.SignedTension(state.Positions()));
   }
 
  private:
@@ -121,13 +170,14 @@ std::unique_ptr<const Element> MakePiece(const Tendon& piece, const Scene& scene
   return std::make_unique<PieceElement>(Piece(piece, scene, numbers));
 }
 
+std::unique_ptr<const Element> MakeEvenStrain(const ContactCandidate& eye, const Scene& scene,
+                                              const NodeNumbers& numbers) {
+  return std::make_unique<EvenStrainElement>(PieceAt(eye, 1, scene, numbers), PieceAt(eye, 0, scene, numbers));
+}
+
 std::unique_ptr<const Contact> MakeEye(const ContactCandidate& eye, const Scene& scene, const NodeNumbers& numbers) {
-  const auto piece = [&](std::size_t end) {
-    return Piece(*std::find_if(scene.tendons.begin(), scene.tendons.end(),
-                               [&](const Tendon& of) { return of.slides[end] == eye.node; }),
-                 scene, numbers);
-  };
-  return std::make_unique<EyeContact>(numbers.at(eye.node), eye.friction, piece(1), piece(0));
+  return std::make_unique<EyeContact>(numbers.at(eye.node), eye.friction, PieceAt(eye, 1, scene, numbers),
+                                      PieceAt(eye, 0, scene, numbers));
 }
 
 }  // namespace contact_path::check

@@ -52,7 +52,8 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   const auto rule_of = [&](ContactState state) -> StateRule& { return states[static_cast<std::size_t>(state)]; };
 
   StateRule& stick = rule_of(ContactState::kStick);
-  stick.ports = {held, PortRule{PortRule::Kind::kHeld, 0.0, surface_traits.tangent_gives ? surface_traits.compliance : 0.0}};
+  stick.ports = {held,
+                 PortRule{PortRule::Kind::kHeld, 0.0, surface_traits.tangent_gives ? surface_traits.compliance : 0.0}};
   stick.limits = {bears, OfForces(ContactLimit::kConePlus, {mu, 1.0}, unit, ContactState::kSlipPlus),
                   OfForces(ContactLimit::kConeMinus, {mu, -1.0}, unit, ContactState::kSlipMinus)};
   stick.held = NumberOf(ContactState::kStick);

@@ -65,8 +65,7 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
   using std::sqrt;
   using std::tanh;
   const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
-  const Gradient values =
-      (Gradient() << before.span.x, before.rest, behind.span.x, behind.rest).finished();
+  const Gradient values = (Gradient() << before.span.x, before.rest, behind.span.x, behind.rest).finished();
   std::array<Twice, kLocals> z;
   for (int k = 0; k < kLocals; ++k) {
     Once once(values[k], kLocals, k);
@@ -151,8 +150,8 @@ Eigen::Vector3d TendonEye::FactorAlong(std::size_t port, const Eigen::VectorXd& 
           first.dot(at.share_hessian * first) + at.share_gradient.dot(second)};
 }
 
-double TendonEye::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int /*piece*/,
-                         const Eigen::VectorXd& du, double ds, int /*piece_after*/) const {
+double TendonEye::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int /*piece*/, const Eigen::VectorXd& du,
+                         double ds, int /*piece_after*/) const {
   if (port == kNormal) return 0.0;
   return 0.5 * (At(u, s).share.value + At(u + du, s + ds).share.value) * du[slid_.dof];
 }

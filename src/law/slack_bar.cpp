@@ -53,11 +53,7 @@ SlackBar::SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length
 }
 
 SlackBar::SlackBar(const MovingPlace& span, double EA, double rest_length, const LawDofs& dofs)
-    : spans_{span},
-      rest_length_(rest_length),
-      EA_(EA),
-      sense_(1.0),
-      strain_(StrainMeasure::kBiot) {
+    : spans_{span}, rest_length_(rest_length), EA_(EA), sense_(1.0), strain_(StrainMeasure::kBiot) {
   Traits traits;
   traits.dofs = dofs;
   for (std::size_t k = 0; k <= dofs.size(); ++k) traits.moves[0][k] = true;

@@ -51,7 +51,8 @@ void TendonSpan::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, con
   const double a = at.rest, l = at.length, root = std::sqrt(RestLength() / a);
   const LawDofs& dofs = OwnDofs();
   const Eigen::Vector2d n = at.span.x / l;
-  const LawVector by_rest = RestGradient(dofs), along = Spread(LawVector(at.span.first.transpose() * n), Span().Dofs(), dofs);
+  const LawVector by_rest = RestGradient(dofs),
+                  along = Spread(LawVector(at.span.first.transpose() * n), Span().Dofs(), dofs);
   // g = root (a - l)
   const double g_a = 0.5 * root * (1.0 + l / a), g_la = 0.5 * root / a, g_aa = -0.25 * root / a * (1.0 + 3.0 * l / a);
   ports->dofs = dofs;
@@ -60,8 +61,8 @@ void TendonSpan::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, con
   port.gradient = -root * along + g_a * by_rest;
   const Eigen::Matrix2d of_length = -root / l * (Eigen::Matrix2d::Identity() - n * n.transpose());
   port.hessian = Spread(at.span.Hessian(-root * n, of_length), Span().Dofs(), dofs);
-  port.hessian += g_la * (along * by_rest.transpose() + by_rest * along.transpose()) +
-                  g_aa * by_rest * by_rest.transpose();
+  port.hessian +=
+      g_la * (along * by_rest.transpose() + by_rest * along.transpose()) + g_aa * by_rest * by_rest.transpose();
 }
 
 void TendonSpan::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
@@ -76,7 +77,8 @@ void TendonSpan::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/,
   const double v_a = by_rest.dot(weights), v_l = n.dot(v);
   const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - n * n.transpose();
   const Eigen::Vector2d turn = across * v / l;  // d/dh of n
-  const double g_la = 0.5 * root / a, g_laa = -0.75 * root / (a * a), g_aaa = 0.375 * root / (a * a) * (1.0 + 5.0 * l / a);
+  const double g_la = 0.5 * root / a, g_laa = -0.75 * root / (a * a),
+               g_aaa = 0.375 * root / (a * a) * (1.0 + 5.0 * l / a);
   // d/dh of the Hessian by x: that of -root l at this length at rest, and by its change.
   const Eigen::Matrix2d change =
       root / l * (v_l / l * across + turn * n.transpose() + n * turn.transpose()) + g_la * v_a / l * across;
@@ -95,9 +97,7 @@ TendonSpan MakeSpan(const Tendon& piece, const Scene& scene, const SceneIndex& i
     const std::size_t node = index.Node(name);
     return {structure.Dof(static_cast<int>(node), 0), scene.nodes[node].x};
   };
-  const auto point = [&](std::size_t end) {
-    return structure.PointOf(static_cast<int>(index.Node(piece.nodes[end])));
-  };
+  const auto point = [&](std::size_t end) { return structure.PointOf(static_cast<int>(index.Node(piece.nodes[end]))); };
   return {MovingPlace::Between(point(0), point(1)), piece.EA, piece.rest_length, slide(piece.slides[0]),
           slide(piece.slides[1])};
 }

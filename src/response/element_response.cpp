@@ -53,6 +53,7 @@ ElementResponse::ElementResponse(const Scene& scaled, const SceneIndex& index, c
     : scaling_(scaling) {
   Scene slender = scaled;
   slender.superelements.clear();
+  slender.contacts.clear();
   slender.solids.clear();
   const auto place = [&dofs](std::vector<PlacedElement> elements, std::vector<Placed>* to) {
     for (PlacedElement& placed : elements) {
@@ -64,6 +65,8 @@ ElementResponse::ElementResponse(const Scene& scaled, const SceneIndex& index, c
     }
   };
   place(MakeElements(slender, index, configuration.reference, OneSided::kElements), &sections_);
+  for (std::size_t k = 0; k < scaled.tendons.size(); ++k)
+    sections_[sections_.size() - scaled.tendons.size() + k].pieces = scaled.tendons[k].nodes.size() - 1;
   for (const Solid& solid : scaled.solids)
     place(MakeSolidElements(solid, scaled, index, configuration.reference), &elements_);
 }
@@ -74,8 +77,7 @@ std::vector<SectionForces> ElementResponse::Sections(const Eigen::VectorXd& valu
   sections.reserve(sections_.size());
   for (const auto& placed : sections_) {
     const SectionForces of = SectionOf(*placed.element, ValuesOf(placed, values));
-    const std::size_t pieces = static_cast<std::size_t>(std::max(placed.element->Dofs().back().node, 1));
-    sections.insert(sections.end(), pieces,
+    sections.insert(sections.end(), placed.pieces,
                     {force * of.N, force * of.Q, moment * of.M, moment * of.M1, moment * of.M2});
   }
   return sections;

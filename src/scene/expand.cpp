@@ -303,8 +303,7 @@ bool TurnsNode(const Beam& beam, std::size_t place) {
 }
 
 bool HasRotations(const Scene& scene) {
-  return !scene.beams.empty() || !scene.bodies.empty() ||
-         std::any_of(scene.tendons.begin(), scene.tendons.end(), RubsAtEyes) || std::any_of(scene.nodes.begin(), scene.nodes.end(), IsBody);
+  return !scene.beams.empty() || !scene.bodies.empty() || std::any_of(scene.nodes.begin(), scene.nodes.end(), IsBody);
 }
 
 std::vector<bool> NodesThatTurn(const Scene& scene) {
@@ -334,18 +333,14 @@ std::string CentreNode(const Obstacle& circle, const Scene& scene) {
   return is_body ? circle.body : circle.name;
 }
 
-bool RubsAtEyes(const Tendon& tendon) {
-  return tendon.friction > 0.0 && tendon.nodes.size() > 2 && !tendon.IsPiece();
-}
+bool RubsAtEyes(const Tendon& tendon) { return tendon.friction > 0.0 && tendon.nodes.size() > 2 && !tendon.IsPiece(); }
 
 namespace {
 
 // A tendon with friction becomes pieces from node to node, which share its length at rest as they share its length: the
 // first in its place, the others behind all tendons. At each eye a node follows whose x grows by what slides through
-// the eye to the next piece, and a contact of that node with the eye. A spring holds the node where the tendon is
-// slack, too weak to be felt elsewhere. A tendon that is not sound stays as it is.
+// the eye to the next piece, and a contact of that node with the eye. A tendon that is not sound stays as it is.
 void ExpandTendon(std::size_t place, const std::unordered_map<std::string, std::size_t>& places, Scene* scene) {
-  constexpr double kWeak = 1e-10;
   const Tendon tendon = scene->tendons[place];
   std::vector<std::pair<double, double>> at;
   std::vector<double> lengths;
@@ -379,7 +374,7 @@ void ExpandTendon(std::size_t place, const std::unordered_map<std::string, std::
       scene->tendons.push_back(std::move(piece));
     if (slid.empty()) break;
     scene->nodes.push_back({slid, at[i + 1].first, at[i + 1].second});
-    scene->superelements.push_back({{slid}, {kWeak * stiffness, 0.0, 0.0, stiffness}});
+    scene->superelements.push_back({{slid}, {0.0, 0.0, 0.0, stiffness}});
     ContactCandidate eye;
     eye.node = slid;
     eye.obstacle = tendon.nodes[i + 1];
@@ -449,7 +444,8 @@ bool NeedsExpansion(const TraceRequest& request) {
   };
   const Scene& scene = request.scene;
   return !scene.beams.empty() || !scene.bodies.empty() || !scene.groups.empty() || !scene.surfaces.empty() ||
-         !scene.supports.empty() || any_in(scene) || any_group(scene.contacts) ||
+         !scene.supports.empty() || std::any_of(scene.tendons.begin(), scene.tendons.end(), RubsAtEyes) ||
+         any_in(scene) || any_group(scene.contacts) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(),
                      [](const ContactCandidate& contact) { return contact.OnSurface() || contact.Rolls(); }) ||
          std::any_of(request.program.begin(), request.program.end(), any_in);

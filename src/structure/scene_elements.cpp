@@ -14,6 +14,7 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/structure/bar.h"
 #include "contact_path/structure/beam.h"
+#include "contact_path/structure/even_strain.h"
 #include "contact_path/structure/material.h"
 #include "contact_path/structure/solid.h"
 
@@ -232,6 +233,37 @@ void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<do
   }
 }
 
+// Softer than rounding leaves stiffness by this share.
+constexpr double kSoft = 1e-8;
+
+PlacedElement EvenStrainAt(const ContactCandidate& eye, const Scene& scene, const SceneIndex& index) {
+  std::vector<int> nodes;
+  const auto local = [&](const std::string& name) {
+    const auto node = static_cast<int>(index.Node(name));
+    const auto found = std::find(nodes.begin(), nodes.end(), node);
+    const auto place = static_cast<int>(found - nodes.begin());
+    if (found == nodes.end()) nodes.push_back(node);
+    return place;
+  };
+  double EA = 0.0;
+  const auto piece = [&](std::size_t end) {
+    const Tendon& tendon = *std::find_if(scene.tendons.begin(), scene.tendons.end(),
+                                         [&](const Tendon& known) { return known.slides[end] == eye.node; });
+    EA = tendon.EA;
+    EvenStrain::Piece of;
+    of.rest = tendon.rest_length;
+    for (std::size_t k = 0; k < 2; ++k) {
+      of.nodes[k] = local(tendon.nodes[k]);
+      if (const std::string& slide = tendon.slides[k]; !slide.empty())
+        of.slides.push_back({local(slide), scene.nodes[index.Node(slide)].x, k == 0 ? 1.0 : -1.0});
+    }
+    return of;
+  };
+  const EvenStrain::Piece before = piece(1), behind = piece(0);
+  const double stiffness = kSoft * EA * std::min(before.rest, behind.rest);
+  return {std::make_unique<EvenStrain>(stiffness, before, behind, static_cast<int>(nodes.size())), nodes};
+}
+
 }  // namespace
 
 std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
@@ -271,6 +303,8 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
       }
     }
   });
+  for (const ContactCandidate& contact : scene.contacts)
+    if (contact.at_eye) elements.push_back(EvenStrainAt(contact, scene, index));
   return elements;
 }
 

@@ -121,8 +121,10 @@ constexpr auto Fields(Of<Bar>) {
                     Member("strain", &P::strain), Member("sense", &P::sense), Member("name", &P::name));
 }
 
-// String from its first node through the others, along which it slides without friction, to the last one. It bears
-// tension alone: energy EA l0 e^2 / 2, e = l / l0 - 1 >= 0 with the sum l of the distances from node to node.
+// String from its first node through the others, along which it slides, to the last one. It bears tension alone.
+// Without friction: energy EA l0 e^2 / 2, e = l / l0 - 1 >= 0 with the sum l of the distances from node to node. With
+// friction each piece from node to node has an energy of its own, and the tensions before and behind a node round which
+// the string turns by phi differ by at most the factor exp(friction phi).
 struct Tendon {
   std::string name;                // of the column of its state; empty = "tendon<place in the list, from 1>"
   std::vector<std::string> nodes;  // two names at least; a name may come again

@@ -1,0 +1,53 @@
+// What keeps determined how much of a slack tendon is on either side of an eye with friction.
+#ifndef CONTACT_PATH_STRUCTURE_EVEN_STRAIN_H_
+#define CONTACT_PATH_STRUCTURE_EVEN_STRAIN_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "contact_path/structure/element.h"
+
+namespace contact_path {
+
+// W = k (l1 / a1 - l2 / a2)^2 / 2 of the pieces before and behind an eye, with their lengths l from node to node and
+// those at rest a, so soft that it is felt nowhere but where the tendon is slack: there both pieces have one strain,
+// and it exerts no force. Its values are x, y of the node before, of the eye, of the node behind, and of the nodes
+// whose x tells what has slid: a1 = a1_0 + in - slid, a2 = a2_0 + slid - out, of those that are there.
+class EvenStrain : public Element {
+ public:
+  struct Piece {
+    double rest = 0.0;  // at the start [length]
+    // By node of the element: what its x less `start` adds to the length at rest, per length.
+    struct Slide {
+      int node;
+      double start, sense;
+    };
+    std::vector<Slide> slides;
+    std::array<int, 2> nodes{};  // of the element
+  };
+  // stiffness: k [force length].
+  EvenStrain(double stiffness, Piece before, Piece behind, int num_nodes);
+
+  const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
+  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override;
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
+                         Eigen::Ref<Eigen::MatrixXd> derivative) const override;
+
+ private:
+  template <typename Number>
+  Number EnergyOf(const std::vector<Number>& values) const;
+  // Of the energy along x + h v at h = 0: the Hessian, and its change with h.
+  void Derive(const Eigen::VectorXd& x, const Eigen::VectorXd& v, Eigen::Ref<Eigen::MatrixXd> hessian,
+              Eigen::MatrixXd* change) const;
+
+  double stiffness_;
+  Piece before_, behind_;
+  std::vector<LocalDof> dofs_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_STRUCTURE_EVEN_STRAIN_H_

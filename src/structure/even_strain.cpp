@@ -1,0 +1,95 @@
+#include "contact_path/structure/even_strain.h"
+
+#include <cmath>
+#include <type_traits>
+#include <unsupported/Eigen/AutoDiff>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+constexpr int kMost = 12;  // values
+using Along = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
+using Once = Eigen::AutoDiffScalar<Eigen::Matrix<Along, kMost, 1>>;
+using Twice = Eigen::AutoDiffScalar<Eigen::Matrix<Once, kMost, 1>>;
+
+template <typename Number>
+Number Constant(double value) {
+  if constexpr (std::is_same_v<Number, double>)
+    return value;
+  else
+    return Number(Constant<typename Number::Scalar>(value));
+}
+
+}  // namespace
+
+EvenStrain::EvenStrain(double stiffness, Piece before, Piece behind, int num_nodes)
+    : stiffness_(stiffness),
+      before_(std::move(before)),
+      behind_(std::move(behind)),
+      dofs_(PositionsOfNodes(num_nodes)) {}
+
+template <typename Number>
+Number EvenStrain::EnergyOf(const std::vector<Number>& values) const {
+  using std::sqrt;
+  const auto ratio = [&](const Piece& piece) -> Number {
+    const auto at = [&](std::size_t end, std::size_t axis) -> const Number& {
+      return values[2 * static_cast<std::size_t>(piece.nodes[end]) + axis];
+    };
+    const Number dx = at(1, 0) - at(0, 0), dy = at(1, 1) - at(0, 1);
+    Number rest = Constant<Number>(piece.rest);
+    for (const Piece::Slide& slide : piece.slides) {
+      const Number slid = values[2 * static_cast<std::size_t>(slide.node)] - Constant<Number>(slide.start);
+      if (slide.sense > 0.0)
+        rest += slid;
+      else
+        rest -= slid;
+    }
+    return sqrt(Number(dx * dx + dy * dy)) / rest;
+  };
+  const Number uneven = ratio(before_) - ratio(behind_);
+  return Constant<Number>(0.5 * stiffness_) * Number(uneven * uneven);
+}
+
+void EvenStrain::Derive(const Eigen::VectorXd& x, const Eigen::VectorXd& v, Eigen::Ref<Eigen::MatrixXd> hessian,
+                        Eigen::MatrixXd* change) const {
+  const auto size = static_cast<int>(x.size());
+  std::vector<Twice> values;
+  for (int i = 0; i < size; ++i) {
+    Along along(x[i], Eigen::Matrix<double, 1, 1>::Constant(v[i]));
+    values.emplace_back(Once(along, kMost, i), kMost, i);
+  }
+  const Twice energy = EnergyOf(values);
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) {
+      const Along& entry = energy.derivatives()[i].derivatives()[j];
+      hessian(i, j) = entry.value();
+      if (change != nullptr) (*change)(i, j) = entry.derivatives()[0];
+    }
+}
+
+double EvenStrain::Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+  return EnergyOf(std::vector<double>(x.data(), x.data() + x.size()));
+}
+
+void EvenStrain::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const {
+  using Number = Eigen::AutoDiffScalar<Eigen::Matrix<double, kMost, 1>>;
+  const auto size = static_cast<int>(x.size());
+  std::vector<Number> values;
+  for (int i = 0; i < size; ++i) values.emplace_back(x[i], kMost, i);
+  force = EnergyOf(values).derivatives().head(size);
+}
+
+void EvenStrain::Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+  Derive(x, Eigen::VectorXd::Zero(x.size()), tangent, nullptr);
+}
+
+void EvenStrain::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                   const Eigen::Ref<const Eigen::VectorXd>& v,
+                                   Eigen::Ref<Eigen::MatrixXd> derivative) const {
+  Eigen::MatrixXd hessian(x.size(), x.size()), change(x.size(), x.size());
+  Derive(x, v, hessian, &change);
+  derivative = change;
+}
+
+}  // namespace contact_path
