@@ -146,6 +146,9 @@ def slip(path: Increments, structure: Structure, contact: str) -> np.ndarray:
     known = states != ''
     if structure.contact_surfaces[index]:
         steps = steps_on_surface(path, structure, index, known)
+    elif not obstacle:  # an eye of a tendon
+        slid = path['x_' + contact[:contact.index('@')]][known]
+        steps = np.diff(slid, prepend=slid[:1])
     else:
         places = np.column_stack((path['x_' + node], path['y_' + node]))
         boundary = structure.obstacles[obstacle]

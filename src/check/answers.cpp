@@ -14,7 +14,7 @@ std::vector<std::array<double, 5>> Sections(const std::vector<std::unique_ptr<co
   std::vector<Real> forces(values.size(), 0.0L);
   for (const auto& element : elements) {
     if (const std::optional<Real> tension = element->Tension(values)) {  // the same all along
-      sections.insert(sections.end(), element->Nodes().size() - 1, {static_cast<double>(*tension), 0.0, 0.0, 0.0, 0.0});
+      sections.insert(sections.end(), element->NumPieces(), {static_cast<double>(*tension), 0.0, 0.0, 0.0, 0.0});
       continue;
     }
     if (element->GetKind() != Element::Kind::kBar && element->GetKind() != Element::Kind::kSegment) continue;

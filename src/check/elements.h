@@ -43,6 +43,8 @@ class Element {
   virtual std::optional<MeanStress> Stress(const std::vector<double>&) const { return std::nullopt; }
   // Of a tendon [force]; nothing of another element.
   virtual std::optional<Real> Tension(const std::vector<double>&) const { return std::nullopt; }
+  // From node to node, of a tendon.
+  virtual std::size_t NumPieces() const { return nodes_.size() - 1; }
   // At least the largest force per motion that it exerts at the start [force/length].
   virtual Real Stiffness() const = 0;
   // Adds the strain energy W to *energy [force length].

@@ -68,6 +68,7 @@ class PieceElement : public Element {
   std::optional<Real> Tension(const std::vector<double>& positions) const override {
     return std::max<Real>(piece_.SignedTension(positions), 0.0L);
   }
+  std::size_t NumPieces() const override { return 1; }
   Real Stiffness() const override { return 4.0L * piece_.EA() / piece_.RestAtStart(); }
   void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
     const Real tension = *Tension(positions);
@@ -89,6 +90,7 @@ class PieceElement : public Element {
 };
 
 constexpr Real kSoft = 1e-8L;
+constexpr Real kStraight = 1e-3L;  // [rad], round which the angle at an eye is rounded
 
 // W = k (l1 / a1 - l2 / a2)^2 / 2, k = kSoft EA times the shorter length at rest.
 class EvenStrainElement : public Element {
@@ -138,7 +140,8 @@ class EyeContact : public Contact {
 
   Real FrictionIn(const PlacedState& state) const override {
     const Vector in = before_.Span(state.Positions()), out = behind_.Span(state.Positions());
-    return std::tanh(0.5L * Friction() * std::abs(std::atan2(in.x * out.y - in.y * out.x, Dot(in, out))));
+    const Real turn = std::abs(std::atan2(in.x * out.y - in.y * out.x, Dot(in, out)));
+    return std::tanh(0.5L * Friction() * (turn + kStraight * std::log1p(std::exp(-2.0L * turn / kStraight))));
   }
   // What is missing of a length that bears.
   Real Gap(const PlacedState& state) const override {

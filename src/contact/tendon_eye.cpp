@@ -10,7 +10,7 @@
 namespace contact_path {
 namespace {
 
-constexpr double kStraight = 1e-5;  // [rad]
+constexpr double kStraight = 1e-3;  // [rad]
 
 template <typename Number>
 Number Tension(double EA, const Number& dx, const Number& dy, const Number& rest) {
@@ -62,7 +62,8 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
   using Once = Eigen::AutoDiffScalar<Gradient>;
   using Twice = Eigen::AutoDiffScalar<Eigen::Matrix<Once, kLocals, 1>>;
   using std::atan2;
-  using std::sqrt;
+  using std::exp;
+  using std::log;
   using std::tanh;
   const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
   const Gradient values = (Gradient() << before.span.x, before.rest, behind.span.x, behind.rest).finished();
@@ -72,8 +73,9 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
     z[static_cast<std::size_t>(k)] = Twice(once, kLocals, k);
   }
   const Twice sum = Tension(before_.EA(), z[0], z[1], z[2]) + Tension(behind_.EA(), z[3], z[4], z[5]);
-  const Twice turn = atan2(Twice(z[0] * z[4] - z[1] * z[3]), Twice(z[0] * z[3] + z[1] * z[4]));
-  const Twice rounded = sqrt(Twice(turn * turn + kStraight * kStraight));
+  Twice turn = atan2(Twice(z[0] * z[4] - z[1] * z[3]), Twice(z[0] * z[3] + z[1] * z[4]));
+  if (turn.value().value() < 0.0) turn = -turn;
+  const Twice rounded = turn + log(Twice(exp(Twice(turn * (-2.0 / kStraight))) + 1.0)) * kStraight;
   const Twice share = tanh(Twice(rounded * (0.5 * friction_))) * (sum * (0.5 / before_.EA()) + 1.0);
   const auto function_of = [](const Twice& of) {
     Function function;
@@ -128,6 +130,11 @@ double TendonEye::Gap(const Eigen::VectorXd& u, double s, int /*piece*/) const {
   const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
   return -compliance_ * (Tension(before_.EA(), before.span.x.x(), before.span.x.y(), before.rest) +
                          Tension(behind_.EA(), behind.span.x.x(), behind.span.x.y(), behind.rest));
+}
+
+double TendonEye::GapOnRecord(const Eigen::VectorXd& u, double s, int /*piece*/) const {
+  const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
+  return std::max(0.0, before.rest - before.length + behind.rest - behind.length);
 }
 
 void TendonEye::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,

@@ -219,6 +219,10 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
     double largest = 0.0;
     for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
       largest = std::max(largest, std::abs(it.value()) * (is_constraint ? scale_[it.row()] : 1.0));
+    if (const double own = std::abs(matrix.coeff(column, column)); is_constraint && largest == 0.0 && own != 0.0) {
+      scale_[column] = 1.0 / std::sqrt(own);  // of a force that acts on nothing
+      continue;
+    }
     scale_[column] =
         redundant && is_constraint && largest == 0.0 ? 1.0 : 1.0 / (is_constraint ? largest : std::sqrt(largest));
   }

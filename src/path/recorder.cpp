@@ -32,8 +32,8 @@ bool NoneGoesOn(const EventRecord& event, double change) {
 std::vector<ContactRecord> ContactsAt(const Model& model, const PathPoint& point, const CheckedState& state) {
   std::vector<ContactRecord> contacts(model.contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    contacts[i] = {model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece) * model.scaling.length, state.rn[i],
-                   state.rt[i], StateOf(point, i)};
+    contacts[i] = {model.contacts[i]->GapOnRecord(point.u, point.s, point.modes[i].piece) * model.scaling.length,
+                   state.rn[i], state.rt[i], StateOf(point, i)};
   return contacts;
 }
 

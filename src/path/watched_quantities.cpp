@@ -39,13 +39,14 @@ Function OfAttachedNode(const Model& model, const Quantity& quantity) {
 Function OfContact(const Model& model, const Quantity& quantity, const FixedModeSystem& system) {
   const std::size_t i = quantity.part;
   if (quantity.kind != Quantity::Kind::kGap)
-    return [i, &system, normal = quantity.kind == Quantity::Kind::kRn](const Eigen::VectorXd& x) {
+    return [i, &system, &contact = *model.contacts[i],
+            normal = quantity.kind == Quantity::Kind::kRn](const Eigen::VectorXd& x) {
       const PathPoint point = system.Unpack(x);
-      return normal ? NormalReaction(point, i) : TangentialReaction(point, i);
+      return normal ? NormalReaction(point, i) : contact.OnRecord(point.u, point.s, TangentialReaction(point, i));
     };
   return [i, &system, &contact = *model.contacts[i]](const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
-    return contact.Gap(point.u, point.s, contact.KnownPatch(point.u, point.s, point.modes[i].piece));
+    return contact.GapOnRecord(point.u, point.s, contact.KnownPatch(point.u, point.s, point.modes[i].piece));
   };
 }
 

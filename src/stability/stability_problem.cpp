@@ -92,7 +92,6 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
   for (Eigen::Index equation = 0; equation < nd; ++equation)
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it && it.row() < nd; ++it)
       if (it.row() != equation) skew = std::max(skew, std::abs(it.value() - stiffness_.coeff(it.row(), equation)));
-  symmetric_ = skew <= tolerances::kEqual * largest;
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), it.value());
@@ -106,6 +105,7 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
   }
   forces_.resize(nd, reactions);
   forces_.setFromTriplets(forces.begin(), forces.end());
+  symmetric_ = skew <= tolerances::kEqual * largest && ForcesActAlongMotions(transposed);
   // What a port that gives way holds is stiffness.
   stiffness.clear();
   for (Eigen::Index reaction = nd; reaction < size; ++reaction) {
@@ -124,6 +124,20 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
   }
   saddle_.resize(size, size);
   saddle_.setFromTriplets(entries.begin(), entries.end());
+}
+
+bool StabilityProblem::ForcesActAlongMotions(const Eigen::SparseMatrix<double>& transposed) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  for (Eigen::Index reaction = 0; reaction < forces_.cols(); ++reaction) {
+    double motion = 0.0, force = forces_.col(reaction).squaredNorm(), work = 0.0;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, nd + reaction); it && it.row() < nd; ++it) {
+      motion += it.value() * it.value();
+      work += it.value() * forces_.coeff(it.row(), reaction);
+    }
+    if (motion > 0.0 && work * work < (1.0 - tolerances::kEqual) * motion * force) return false;
+    if (motion > 0.0 && force == 0.0) return false;
+  }
+  return true;
 }
 
 bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {

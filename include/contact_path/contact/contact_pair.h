@@ -80,6 +80,8 @@ class ContactPair : public Law {
   // xi, measured from 0.
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
 
+  // The gap, 0 where it is closed by a tension.
+  virtual double GapOnRecord(const Eigen::VectorXd& u, double s, int patch) const { return Gap(u, s, patch); }
   // r_t of the force of port 1, and the other way.
   virtual double OnRecord(const Eigen::VectorXd& /*u*/, double /*s*/, double force) const { return force; }
   virtual double FromRecord(const Eigen::VectorXd& /*u*/, double /*s*/, double rt) const { return rt; }

@@ -14,8 +14,9 @@ namespace contact_path {
 // force N = T1 + T2, which is a function of the place and acts on nothing, and the motion -c N, the gap where the
 // tendon is slack; port 1 has for its motion w, what has slid from the span before to the span behind [length], and a
 // force of which |force| <= N, with the factor tanh(mu phi / 2) (1 + N / (2 EA)): with the factor it is
-// T1 + T1^2 / (2 EA) - T2 - T2^2 / (2 EA), since a string that stretches slides faster where it bears more. phi is
-// sqrt(phi^2 + kStraight^2), so that it has derivatives where the tendon is straight.
+// T1 + T1^2 / (2 EA) - T2 - T2^2 / (2 EA), since a string that stretches slides faster where it bears more. Where
+// the tendon is nearly straight phi is rounded, phi + e ln(1 + exp(-2 phi / e)) with e = 1e-3, so that it has derivatives
+// there: from 0.02 on by nothing that shows.
 class TendonEye : public ContactPair {
  public:
   // before, behind: of one tendon. slid: dof >= 0, of both. friction: mu > 0. force_unit: of the spans.
@@ -37,6 +38,8 @@ class TendonEye : public ContactPair {
   double FromRecord(const Eigen::VectorXd& u, double s, double reaction) const override;
 
   double Gap(const Eigen::VectorXd& u, double s, int piece) const override;
+  // By how much the pieces are longer at rest than from node to node.
+  double GapOnRecord(const Eigen::VectorXd& u, double s, int piece) const override;
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override { return {0, Gap(u, s, 0), false}; }
   int PatchAt(const Eigen::VectorXd& /*u*/, double /*s*/) const override { return 0; }
   int PatchAfter(const Eigen::VectorXd& /*u*/, double /*s*/, int /*from*/) const override { return 0; }

@@ -63,6 +63,8 @@ class StabilityProblem {
   };
 
   void Classify(const PathPoint& point);
+  // Of each port that is held, whether its force acts along the gradient of its motion.
+  bool ForcesActAlongMotions(const Eigen::SparseMatrix<double>& transposed) const;
   void BuildSaddle(const Eigen::SparseMatrix<double>& transposed);
   bool Condense(const Eigen::SparseMatrix<double>& transposed);
   // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none

@@ -44,6 +44,10 @@ class Structure:
         self.names = [node['name'] for node in scene['nodes']]
         index = {name: i for i, name in enumerate(self.names)}
         self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
+        # Nodes whose x tells what has slid through an eye of a tendon -> the eye, where they are drawn.
+        obstacles = {obstacle['name'] for obstacle in scene['obstacles']}
+        self.eyes = {index[contact['node']]: index[contact['obstacle']] for contact in scene['contacts']
+                     if contact['obstacle'] in index and contact['obstacle'] not in obstacles}
         self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
         further = [entry['nodes'] for part, entries in scene.items() if part not in DRAWN_APART and isinstance(entries, list)
                    for entry in entries if 'nodes' in entry]
@@ -68,7 +72,7 @@ class Structure:
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
-                              for part in scene['superelements']]
+                              for part in scene['superelements'] if index[part['nodes'][0]] not in self.eyes]
         self.superelements += [([index[name] for name in nodes], np.array([])) for nodes in further if len(nodes) != 2]
         bodies = list(dict.fromkeys(node['body'] for node in scene['nodes'] if node['body']))
         self.hubs_are = ' or '.join([kind for kind, parts in (('superelement', self.superelements), ('body', bodies)) if parts])
@@ -88,9 +92,10 @@ class Structure:
         # Half planes that do not turn: their normals.
         self.normals = {name: boundary.normal for name, boundary in self.obstacles.items()
                         if boundary.flat and name not in turning}
-        self.contact_nodes = np.array([index[contact['node']] for contact in scene['contacts']], dtype=int)
+        # Of a contact of a tendon with an eye the eye, which `obstacle` names.
+        self.contact_nodes = np.array([self.eyes.get(index[contact['node']], index[contact['node']]) for contact in scene['contacts']], dtype=int)
         # By contact; '' where it has none.
-        self.contact_obstacles = [contact['obstacle'] for contact in scene['contacts']]
+        self.contact_obstacles = [contact['obstacle'] if contact['obstacle'] in self.obstacles else '' for contact in scene['contacts']]
         self.contact_surfaces = [contact['surface'] for contact in scene['contacts']]
         self.surfaces = {surface['name']: SurfaceCurve(surface, index) for surface in scene['surfaces']
                          if surface['name'] in self.contact_surfaces}
@@ -121,7 +126,9 @@ class Structure:
 
     def positions(self, increment: Increment) -> np.ndarray:
         """(n, 2)."""
-        return np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
+        places = np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
+        places[list(self.eyes)] = places[list(self.eyes.values())]
+        return places
 
     def rotations(self, increment: Increment) -> np.ndarray:
         """(n,) of the nodes since the start; nan where no beam turns them."""
@@ -165,7 +172,7 @@ class Structure:
     def contact_normals(self, places: np.ndarray, placements: Mapping[str, Placement]) -> np.ndarray:
         """(k, 2) where the contacts are nearest to their obstacles or surfaces. places (n, 2): of the nodes; placements:
         obstacle -> where it is."""
-        normals = np.empty((len(self.contacts), 2))
+        normals = np.zeros((len(self.contacts), 2))  # of an eye: none
         for name in set(self.contact_obstacles) - {''}:
             own = np.flatnonzero(np.array(self.contact_obstacles) == name)
             found, _ = self.obstacles[name].foot(placements[name].back(places[self.contact_nodes[own]]))

@@ -1,0 +1,202 @@
+// Tendons that slide through eyes with friction, in closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/trace.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path::eyes_test {
+namespace {
+
+// What keeps the strains of a slack tendon even, of the difference of the tensions.
+constexpr double kSoft = 1e-7;
+constexpr double kSame = 1e-7;
+
+// From a fixed node through a fixed eye, round which it turns by `turn`, to a node that a force draws along the tendon
+// and lets go.
+TraceRequest DrawnCord(double turn, double friction, double EA) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "drawn_cord";
+  scene.nodes = {
+      {"end", -1.0, 0.0, true, true}, {"eye", 0.0, 0.0, true, true}, {"drawn", std::cos(turn), -std::sin(turn)}};
+  // Springs across keep the node on the line.
+  const double c = std::cos(turn), s = std::sin(turn);
+  scene.superelements = {{{"drawn"}, {s * s, s * c, s * c, c * c}}};
+  Tendon cord;
+  cord.name = "cord";
+  cord.nodes = {"end", "eye", "drawn"};
+  cord.EA = EA;
+  cord.friction = friction;
+  scene.tendons = {cord};
+  Stage pull, release;
+  pull.name = "pull";
+  pull.loads = {{"drawn", c, -s}};
+  release.name = "release";
+  release.unload = true;
+  request.program = {pull, release};
+  request.options.record = {"sections"};
+  return request;
+}
+
+// Drawn, the tensions differ by exp(mu turn); let go, the tendon sticks down to exp(-2 mu turn) of the force, and
+// slides back to nothing.
+TEST(Eyes, TheTensionsDifferByTheCapstanFactor) {
+  for (const double turn : {0.2, 0.5 * M_PI, 3.0})
+    for (const double friction : {0.1, 0.3, 1.0})
+      for (const double EA : {20.0, 1e3, 1e6}) {
+        SCOPED_TRACE(::testing::Message() << "turn " << turn << " friction " << friction << " EA " << EA);
+        const TracedPath path = TraceIncrements(DrawnCord(turn, friction, EA));
+        EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+        const double factor = std::exp(friction * turn);
+        double sticks = 0.0, leaves = 0.0;
+        for (const Increment& increment : path.increments) {
+          const double before = increment.sections[0].N, behind = increment.sections[1].N;
+          const ContactState state = increment.contacts[0].state;
+          EXPECT_NEAR(increment.contacts[0].rn, before + behind, 1e-12);
+          if (state == ContactState::kSlipPlus) {
+            EXPECT_NEAR(behind, factor * before, kSoft);
+            sticks = std::max(sticks, behind);
+          } else if (state == ContactState::kSlipMinus) {
+            EXPECT_NEAR(behind * factor, before, kSoft);
+          } else if (increment.stage == 2 && increment.kind == IncrementKind::kContactEvent) {
+            leaves = behind;
+          }
+        }
+        EXPECT_NEAR(sticks, 1.0, kSoft);
+        EXPECT_NEAR(leaves, 1.0 / (factor * factor), kSoft);
+        EXPECT_NEAR(path.increments.back().sections[0].N, 0.0, kSoft);
+        ExpectNoFindings(path);
+      }
+}
+
+// What friction takes while a rigid cord is drawn by d: the difference of the tensions times what has slid. Here the
+// end gives way by its spring k: T1 = k w, T2 = T1 exp(mu turn), and the work of friction (exp(mu turn) - 1) k w^2 / 2.
+TEST(Eyes, FrictionTakesTheDifferenceOfTheTensionsTimesWhatSlides) {
+  for (const double friction : {0.1, 0.5}) {
+    SCOPED_TRACE(friction);
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "drawn_spring";
+    scene.nodes = {{"end", -1.0, 0.0, false, true}, {"eye", 0.0, 0.0, true, true}, {"hand", 0.0, -1.0, true, true}};
+    scene.superelements = {{{"end"}, {2.0, 0.0, 0.0, 1.0}}};
+    Tendon cord;
+    cord.nodes = {"end", "eye", "hand"};
+    cord.EA = 1e7;
+    cord.friction = friction;
+    scene.tendons = {cord};
+    scene.support_motions = {{"hand", 0.0, -1.0}};
+    request.options.stop = {{"load_factor", ">", 0.5}};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const double factor = std::exp(0.5 * M_PI * friction), slid = 0.5;
+    const Increment& last = path.increments.back();
+    EXPECT_NEAR(last.supports.back().ry, -2.0 * slid * factor, 1e-5);
+    EXPECT_NEAR(last.dissipation, (factor - 1.0) * slid * slid, 1e-5);
+    EXPECT_NEAR(last.strain_energy, slid * slid, 1e-5);
+    ExpectNoFindings(path);
+  }
+}
+
+// A tackle of n parts: the hauling part comes off the fixed block, and the load is the pull times the sum over k from 1
+// to n of exp(-mu pi k) (each sheave turns the rope by pi).
+TEST(Eyes, ATackleLosesAtEachSheave) {
+  for (const int parts : {1, 2, 3, 4})
+    for (const double friction : {0.05, 0.2}) {
+      SCOPED_TRACE(::testing::Message() << parts << " parts, friction " << friction);
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "tackle";
+      scene.nodes = {{"roof", 0.0, 0.0, true, true}, {"load", 0.0, -5.0, true, false}, {"hand", 0.0, -7.0, true, true}};
+      Tendon rope;
+      rope.name = "rope";
+      for (int i = 0; i <= parts; ++i) rope.nodes.emplace_back((parts - i) % 2 == 0 ? "roof" : "load");
+      rope.nodes.emplace_back("hand");
+      rope.EA = 1e3;
+      rope.friction = friction;
+      scene.tendons = {rope};
+      scene.loads = {{"load", 0.0, -1.0, true}};
+      scene.support_motions = {{"hand", 0.0, -1.0}};
+      request.options.stop = {{"load_factor", ">", 0.5}};
+      const TracedPath path = TraceIncrements(request);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      double advantage = 0.0;
+      for (int k = 1; k <= parts; ++k) advantage += std::exp(-M_PI * friction * k);
+      EXPECT_NEAR(-path.increments.back().supports.back().ry, 1.0 / advantage, 1e-7);
+      for (const ContactRecord& eye : path.increments.back().contacts) EXPECT_EQ(eye.state, ContactState::kSlipPlus);
+      ExpectNoFindings(path);
+    }
+}
+
+// A tendon goes slack as a whole, and becomes taut where it is as long as its way.
+TEST(Eyes, GoesSlackAsAWhole) {
+  TraceRequest request = DrawnCord(0.5 * M_PI, 0.3, 100.0);
+  request.scene.superelements.clear();
+  request.scene.nodes[2].fixed_x = request.scene.nodes[2].fixed_y = true;
+  request.scene.tendons[0].rest_length = 2.1;
+  Stage pull, back;
+  pull.support_motions = {{"drawn", 0.0, -0.2}};
+  back.support_motions = {{"drawn", 0.0, 0.2}};
+  request.program = {pull, back};
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const int stage : {1, 2}) {
+    const auto changes = std::find_if(path.increments.begin(), path.increments.end(), [&](const Increment& of) {
+      return of.stage == stage && of.kind == IncrementKind::kContactEvent && of.contacts[0].rn < kSoft;
+    });
+    ASSERT_NE(changes, path.increments.end());
+    EXPECT_NEAR(changes->load_factor, 0.5, kSoft);
+  }
+  for (const Increment& increment : path.increments) {
+    const bool taut = increment.bars[0] == BarState::kTaut;
+    EXPECT_EQ(increment.bars[1] == BarState::kTaut, taut);
+    EXPECT_EQ(increment.contacts[0].state != ContactState::kOpen, taut);
+  }
+  EXPECT_NEAR(path.increments.back().contacts[0].gap, 0.1, 1e-12);
+  ExpectNoFindings(path);
+}
+
+// A finger of two beams and a rib, whose cord passes three eyes: units, order and mirror change nothing.
+TraceRequest Finger() {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "finger";
+  scene.nodes = {{"root", 0.0, 0.0, true, true, true},
+                 {"joint", 0.0, 1.0},
+                 {"tip", 0.0, 2.0},
+                 {"rib", 0.3, 1.0},
+                 {"nail", 0.3, 2.0},
+                 {"base", 0.4, 0.0, true, true},
+                 {"hand", 0.8, -0.5, true, true}};
+  scene.beams = {{"lower", {"root", "joint"}, 1e3, 1.0},
+                 {"upper", {"joint", "tip"}, 1e3, 1.0},
+                 {"arm", {"joint", "rib"}, 1e3, 100.0},
+                 {"end", {"tip", "nail"}, 1e3, 100.0}};
+  for (Beam& beam : scene.beams) beam.segments = beam.nodes[0] == "joint" && beam.nodes[1] == "rib" ? 1 : 3;
+  Tendon cord;
+  cord.name = "cord";
+  cord.nodes = {"hand", "base", "rib", "nail"};
+  cord.EA = 500.0;
+  cord.friction = 0.2;
+  scene.tendons = {cord};
+  scene.support_motions = {{"hand", 0.1, -0.5}};
+  request.options.stop = {{"load_factor", ">", 0.3}};
+  return request;
+}
+
+TEST(Eyes, OfAFingerAreTheSameInOtherWords) {
+  const TraceRequest request = Finger();
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  ExpectNoFindings(path);
+  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, kSame);
+  ExpectSamePath(UndoMirror(TraceIncrements(Mirror(request))), path, kSame);
+}
+
+}  // namespace
+}  // namespace contact_path::eyes_test
