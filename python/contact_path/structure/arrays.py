@@ -67,6 +67,7 @@ class Structure:
         self.bar_names += [''] * (len(bars) - len(self.bar_names))
         self.bars = np.array([[index[name] for name in nodes] for nodes in bars], dtype=int).reshape(-1, 2)
         self.beams = Beams(scene['beams'], names['sections'][len(scene['bars']):len(names['sections']) - len(pieces)], index, self.initial)
+        self.beams.inner[list(self.eyes)] = True  # not drawn by themselves either
         elements = iter(names['elements'])
         self.solids = [Solid(solid, index, elements) for solid in scene['solids']]
         self.bar_directions = self.find_bar_directions()
@@ -107,8 +108,10 @@ class Structure:
         radii = {obstacle['name']: obstacle['radius'] for obstacle in scene['obstacles']}
         # Of circles that roll about their nodes.
         self.contact_radii = np.array([radii[contact['obstacles'][0]] if contact.get('obstacles') else 0.0 for contact in scene['contacts']])
-        self.friction = np.array([contact['friction'] if contact['surface'] or contact['friction'] > 0.0 else self.obstacles[contact['obstacle']].friction
-                                  for contact in scene['contacts']])
+        # Of an eye, which has no normal: 0.
+        self.friction = np.array([0.0 if not contact['surface'] and contact['obstacle'] not in self.obstacles else
+                                  contact['friction'] if contact['surface'] or contact['friction'] > 0.0 else
+                                  self.obstacles[contact['obstacle']].friction for contact in scene['contacts']])
 
     def loads_of(self, loads: Iterable[Mapping[str, Any]]) -> np.ndarray:
         """Forces and moments (n, 3) on the nodes."""
