@@ -4,9 +4,10 @@
 Usage: random_bodies.py TRACE VERIFY DIRECTORY [--seeds FROM:TO]
 
 TRACE and VERIFY are contact_path_trace and verify. Each seed is the same scene on every machine: a box, a disc, both, a body in a sling,
-or a fin that presses a disc. Each path is verified from its bag, and the scene is traced again in other units, mirrored, with its
-lists in another order, and with another step: kinds and load factors of events must be the same to 1e-6. A line is printed for each path
-that ends by a fault of the tracer, each that is not proved, and each that differs. Exit status 0 only if none is not proved or differs.
+a fin that presses a disc, or a rope through two eyes on springs; tendons of even seeds have friction at their eyes. Each path is verified
+from its bag, and the scene is traced again in other units, mirrored, with its lists in another order, and with another step: kinds and
+load factors of events must be the same to 1e-6. A line is printed for each path that ends by a fault of the tracer, each that is not
+proved, and each that differs. Exit status 0 only if none is not proved or differs.
 """
 import argparse
 import csv
@@ -29,7 +30,11 @@ class RandomScene:
         self.random = random.Random(seed)
         self.scene = {name: [] for name in ('nodes', 'bodies', 'bars', 'tendons', 'beams', 'superelements', 'obstacles', 'contacts', 'loads')}
         self.add('obstacles', name='floor', shape='half_plane', nx=0.0, ny=1.0, friction=self.random.choice([0.0, 0.2, 0.5, 0.9]))
-        getattr(self, self.random.choice(['box', 'disc', 'box_and_disc', 'sling', 'fin']))()
+        getattr(self, self.random.choice(['box', 'disc', 'box_and_disc', 'sling', 'fin', 'rope']))()
+        if seed % 2 == 0:  # with friction at eyes
+            for tendon in self.scene['tendons']:
+                if len(tendon['nodes']) > 2:
+                    tendon['friction'] = self.number(0.05, 0.4)
 
     def add(self, part, **fields):
         self.scene[part].append(fields)
@@ -115,6 +120,16 @@ class RandomScene:
         self.add('beams', name='fin', nodes=['root', 'tip'], EA=1e4, EI=self.number(0.5, 3.0), segments=6)
         self.add('contacts', node='tip', obstacle='rim')
         self.add('loads', node='tip', fx=self.number(-0.3, 0.3), fy=-1.0)
+
+    def rope(self):
+        self.ground('anchor', 0.0, 1.0)
+        for name, x, y in (('p', 0.6, 2.0), ('q', 1.5, 1.4), ('end', 2.2, 2.2)):
+            self.add('nodes', name=name, x=x + self.number(-0.3, 0.3), y=y + self.number(-0.3, 0.3))
+            stiff, soft = self.number(1.0, 5.0), self.number(0.2, 1.0)
+            self.add('superelements', nodes=[name], stiffness=[stiff, 0.0, 0.0, soft])
+        self.add('tendons', nodes=['anchor', 'p', 'q', 'end'], EA=self.number(20.0, 200.0))
+        for node in ('p', 'q', 'end'):
+            self.add('loads', node=node, fx=self.number(-1.0, 1.0), fy=self.number(-1.0, 1.0))
 
     def request(self):
         scene = {'name': 'random_bodies', **{name: entries for name, entries in self.scene.items() if entries}}
