@@ -140,7 +140,7 @@ contact_path_add_stage(linear NAMES blas_test bordered_solver_test minimum_norm_
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
-contact_path_add_stage(law NAMES moving_place_test slack_bar_test toy_law_test)
+contact_path_add_stage(law NAMES moving_place_test slack_bar_test tendon_span_test toy_law_test)
 contact_path_add_stage(contact NAMES contact_pair_test deformable_boundary_test deformable_pair_test
   reach_tracker_test rigid_pair_test scene_contacts_test)
 contact_path_add_stage(equations OPTIMISED NAMES deformable_system_test fixed_mode_system_test nearest_point_test rigid_modes_test)
