@@ -54,6 +54,7 @@ ElementResponse::ElementResponse(const Scene& scaled, const SceneIndex& index, c
   Scene slender = scaled;
   slender.superelements.clear();
   slender.solids.clear();
+  slender.pins.clear();
   const auto place = [&dofs](std::vector<PlacedElement> elements, std::vector<Placed>* to) {
     for (PlacedElement& placed : elements) {
       std::vector<int> components;

@@ -278,6 +278,10 @@ std::string TendonName(const Tendon& tendon, std::size_t place) {
   return tendon.name.empty() ? "tendon" + std::to_string(place + 1) : tendon.name;
 }
 
+std::string PinName(const Pin& pin, std::size_t place) {
+  return pin.name.empty() ? "pin" + std::to_string(place + 1) : pin.name;
+}
+
 std::vector<OneSidedBar> OneSidedBars(const Scene& scene) {
   std::vector<OneSidedBar> bars;
   for (std::size_t i = 0; i < scene.bars.size(); ++i)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "contact_path/scene/scaling.h"
 #include "scene/rules.h"
 
 namespace contact_path {
@@ -70,6 +71,21 @@ class StructureRules {
     for (const Beam& beam : scene_.beams) earlier.insert(beam.name);  // whose sections have names alike
     for (std::size_t i = 0; i < scene_.tendons.size(); ++i)
       checker_.CheckName(kScene.Key("tendons")[i].Key("name"), TendonName(scene_.tendons[i], i), &earlier);
+    std::unordered_set<std::string> earlier_pins, reacting;  // whose columns have names alike
+    const auto add_names = [&](const auto& parts) {
+      for (const auto& part : parts) reacting.insert(part.name);
+    };
+    add_names(scene_.nodes);
+    add_names(scene_.obstacles);
+    add_names(scene_.surfaces);
+    for (std::size_t i = 0; i < scene_.pins.size(); ++i) {
+      const KeyPath key = kScene.Key("pins")[i].Key("name");
+      const std::string name = PinName(scene_.pins[i], i);
+      if (reacting.count(name) > 0)
+        checker_.Add(key, name, "must not be the name of a node, a body, an obstacle or a surface, too");
+      else
+        checker_.CheckName(key, name, &earlier_pins);
+    }
   }
 
  private:
@@ -102,6 +118,8 @@ class StructureRules {
       CheckTwoNodes(&checker_, nodes, element.nodes);
     } else if constexpr (std::is_same_v<Part, Tendon>) {
       CheckSpans(nodes, element.nodes);
+    } else if constexpr (std::is_same_v<Part, Pin>) {
+      CheckPinned(nodes, element);
     } else if constexpr (!std::is_same_v<Part, Solid>) {  // of a mesh, each element has nodes of its own
       CheckNodeList(nodes, element.nodes);
     }
@@ -135,6 +153,38 @@ class StructureRules {
       checker_.Add(key, ListText(nodes),
                    "must have at most " + std::to_string(kMostTendonUnknowns) + " unknowns that move its nodes: has " +
                        std::to_string(unknowns.size()));
+  }
+
+  void CheckPinned(const KeyPath& key, const Pin& pin) {
+    const std::vector<std::string>& nodes = pin.nodes;
+    if (nodes.size() != 2) return checker_.Add(key, ListText(nodes), "must name two nodes");
+    const Node *const first = checker_.KnownNode(nodes[0]), *const second = checker_.KnownNode(nodes[1]);
+    if (first == nullptr || second == nullptr) return;
+    if (TurnsWith(*first) == TurnsWith(*second))
+      return checker_.Add(key, ListText(nodes),
+                          first == second ? "must name two different nodes"
+                                          : "must not name two nodes of one body: " + TurnsWith(*first));
+    if (!pinned_.insert(std::minmax(nodes[0], nodes[1])).second)
+      return checker_.Add(key, ListText(nodes), "must not be repeated: an earlier pin holds these nodes together");
+    const double apart = std::hypot(second->x - first->x, second->y - first->y);
+    if (apart > kWrittenRounding * ExtentOfNodes(scene_))
+      return checker_.Add(key, ListText(nodes),
+                          "the two nodes must be at the same point at the start: they are " + NumberText(apart) +
+                              " apart");
+    if (!CanMove(*first) && !CanMove(*second))
+      return checker_.Add(key, ListText(nodes), "one of the two nodes must be free to move");
+    if (!(pin.stiffness > 0.0)) return;
+    for (const Node* const node : {first, second})
+      if (checker_.KnownNode(TurnsWith(*node)) != nullptr && !checker_.Turns(TurnsWith(*node)))
+        checker_.Add(key, node->name,
+                     "must be of a body, or a node that a beam turns, where the pin has a stiffness: a spring turns "
+                     "both of its nodes");
+  }
+
+  // Whether anything of the node is free, or of the body that it moves with.
+  bool CanMove(const Node& node) const {
+    const Node* const moves = checker_.KnownNode(TurnsWith(node));
+    return moves == nullptr || !moves->fixed_x || !moves->fixed_y || (IsAttached(node) && !moves->fixed_rotation);
   }
 
   // What the description of an element does not tell. sound: its fields are.
@@ -179,6 +229,7 @@ class StructureRules {
 
   Checker& checker_;
   const Scene& scene_;
+  std::set<std::pair<std::string, std::string>> pinned_;  // nodes of the pins before
 };
 
 }  // namespace

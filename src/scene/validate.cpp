@@ -54,6 +54,8 @@ void CheckOptions(Checker* checker) {
   if (const std::vector<Node>& nodes = checker->GetScene().nodes;
       !options.LocatesEvents() && std::any_of(nodes.begin(), nodes.end(), IsBody))
     checker->Add(path.Key("method"), "mpec", "must be branch in a scene with rigid bodies");
+  if (!options.LocatesEvents() && !checker->GetScene().pins.empty())
+    checker->Add(path.Key("method"), "mpec", "must be branch in a scene with pins");
   if (const std::vector<Obstacle>& obstacles = checker->GetScene().obstacles;
       options.friction_law == FrictionLaw::kTotal &&
       std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) { return !obstacle.body.empty(); }))

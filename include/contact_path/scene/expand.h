@@ -17,6 +17,7 @@ std::string BarName(const Bar& bar, std::size_t place);
 std::string SolidName(const Solid& solid, std::size_t place);
 
 std::string TendonName(const Tendon& tendon, std::size_t place);
+std::string PinName(const Pin& pin, std::size_t place);
 
 // What bears in one sense alone: a bar, or a tendon, whose length is that from node to node.
 struct OneSidedBar {
@@ -45,6 +46,8 @@ bool HasRotations(const Scene& scene);
 // In an expanded scene a body is a node of its name whose `body` is that name, too.
 inline bool IsBody(const Node& node) { return !node.body.empty() && node.body == node.name; }
 inline bool IsAttached(const Node& node) { return !node.body.empty() && node.body != node.name; }
+// The node whose rotation is that of what holds the node: its body, or itself.
+inline const std::string& TurnsWith(const Node& node) { return node.body.empty() ? node.name : node.body; }
 
 // The circle of a contact that rolls; null for others, and where the scene does not have its obstacle.
 const Obstacle* RollingCircle(const ContactCandidate& contact, const Scene& scene);
