@@ -164,9 +164,9 @@ class Parts(Loading):
         self._add('contacts', locals())
 
     @named
-    def pin(self, name: str, *, nodes: Texts = (), stiffness: float = 0.0, angle: float = 0.0) -> None:
+    def pin(self, nodes: Texts, *, stiffness: float = 0.0, angle: float = 0.0, name: str = '') -> None:
         """Two nodes that stay together, with a rotational spring between their bodies or beams: stiffness [force length/rad], 0: none;
-        angle [rad]: relative turn from the first to the second without moment."""
+        angle [rad]: relative turn from the first to the second without moment; name: of its columns."""
         self._add('pins', locals())
 
     @named

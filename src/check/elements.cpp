@@ -332,10 +332,10 @@ void Place(const Pin& pin, const Scene& scene, const NodeList& nodes, const std:
   for (const std::size_t node : nodes) {
     const std::string& body = scene.nodes[node].body;
     const auto is_body = [&](const Node& of) { return of.name == body; };
-    turning.push_back(body.empty() ? node
-                                   : static_cast<std::size_t>(
-                                         std::find_if(scene.nodes.begin(), scene.nodes.end(), is_body) -
-                                         scene.nodes.begin()));
+    turning.push_back(body.empty()
+                          ? node
+                          : static_cast<std::size_t>(std::find_if(scene.nodes.begin(), scene.nodes.end(), is_body) -
+                                                     scene.nodes.begin()));
   }
   elements->push_back(std::make_unique<Spring>(pin, turning, reference.size()));
 }

@@ -29,7 +29,8 @@ using check::Vector;
 // Force, of the stiffness at a node times L: the rounding of coordinates makes forces of 1e-11 of it.
 constexpr Real kStiffForce = 1e-4L;
 
-// Contacts of rigid bodies and pins give way, so that reactions are unique: by this motion over L per force over F.
+// Contacts of rigid bodies and pins in loops give way, so that reactions are unique: by this motion over L per force
+// over F.
 constexpr Real kGive = 1e-8L;
 
 // The larger of the two. What is no finite double counts as infinite, so that NaN never passes as small.
@@ -60,6 +61,7 @@ struct ResidualCheck::Prepared {
   struct PreparedPin {
     std::size_t first, second;  // nodes
     Vector written;             // from the second to the first, rounding of what is written
+    bool gives = false;
   };
   struct PreparedLoad {
     std::size_t node = 0;
@@ -81,10 +83,12 @@ struct ResidualCheck::Prepared {
       start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
     }
     elements = check::MakeElements(scene, index, configuration.reference);
+    const std::vector<bool> in_loops = PinsInLoops(scene);
     for (const Pin& pin : scene.pins) {
       const std::size_t first = index.at(pin.nodes.at(0)), second = index.at(pin.nodes.at(1));
       pins.push_back({first, second,
-                      NodePosition(configuration.reference, first) - NodePosition(configuration.reference, second)});
+                      NodePosition(configuration.reference, first) - NodePosition(configuration.reference, second),
+                      in_loops[pins.size()]});
     }
     // Coordinates are rounded relative to their size.
     Real size = scaling.length;
@@ -256,7 +260,7 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const Prepared::PreparedPin& pin = scene.pins[k];
     const Vector force{now.pins[2 * k], now.pins[2 * k + 1]};
     const Vector apart = NodePosition(now.positions, pin.first) - NodePosition(now.positions, pin.second) -
-                         pin.written + static_cast<Real>(GiveOfPins()) * force;
+                         pin.written + static_cast<Real>(GiveOfPin(k)) * force;
     residuals.support = Worst(residuals.support, check::Length(apart) / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
@@ -371,8 +375,9 @@ double ResidualCheck::Give(std::size_t contact) const {
   return prepared_->contacts[contact]->Gives() ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
 }
 
-double ResidualCheck::GiveOfPins() const {
-  return static_cast<double>(kGive) * prepared_->scaling.length / prepared_->scaling.force;
+double ResidualCheck::GiveOfPin(std::size_t pin) const {
+  const Scaling& scaling = prepared_->scaling;
+  return prepared_->pins[pin].gives ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
 }
 
 double ResidualCheck::Uncertain(const CheckedState& state) const {

@@ -89,10 +89,13 @@ class Responder {
     const PathPoint point = model_->FromIncrement(increment);
     FillState(*model_, point, &increment);
     FillLists(*model_, point, {true, true, true}, &increment);
-    Json answer = {{"supports", JsonOf(increment.supports)},   {"boundaries", JsonOf(increment.boundaries)},
+    Json answer = {{"supports", JsonOf(increment.supports)},
+                   {"boundaries", JsonOf(increment.boundaries)},
                    {"pins", JsonOf(increment.pins)},
-                   {"sections", JsonOf(increment.sections)},   {"stresses", JsonOf(increment.stresses)},
-                   {"pressures", JsonOf(increment.pressures)}, {"widths", increment.widths}};
+                   {"sections", JsonOf(increment.sections)},
+                   {"stresses", JsonOf(increment.stresses)},
+                   {"pressures", JsonOf(increment.pressures)},
+                   {"widths", increment.widths}};
     if (!AllFinite(answer)) throw std::invalid_argument("the numbers are beyond what can be computed");
     return answer;
   }

@@ -4,21 +4,23 @@
 #include <limits>
 #include <utility>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 
-PinJoint::PinJoint(MovingPlace apart, const Eigen::Vector2d& at_start)
+PinJoint::PinJoint(MovingPlace apart, const Eigen::Vector2d& at_start, double compliance)
     : apart_(std::move(apart)), at_start_(at_start) {
   Traits traits;
   traits.num_ports = 2;
   traits.dofs = apart_.Dofs();
   for (std::size_t k = 0; k <= traits.dofs.size(); ++k)
     traits.moves[0][k] = traits.moves[1][k] = apart_.Moves(static_cast<Eigen::Index>(k));
-  traits.couples = traits.compliant = true;
+  traits.couples = true;
+  traits.compliant = compliance > 0.0;
   traits.curved = !apart_.Affine();
   StateRule together;
-  together.ports[0] = together.ports[1] = {PortRule::Kind::kHeld, 0.0, tolerances::kRootOfRounding};
+  together.ports[0] = together.ports[1] = {PortRule::Kind::kHeld, 0.0, compliance};
   SetLaw(traits, {together});
 }
 
@@ -54,12 +56,13 @@ std::vector<std::unique_ptr<const PinJoint>> BuildPins(const Scene& scene, const
                                                        const Structure& structure,
                                                        const std::vector<double>& reference) {
   const auto written = [&](std::size_t node) { return Eigen::Vector2d(reference[2 * node], reference[2 * node + 1]); };
+  const std::vector<bool> in_loops = PinsInLoops(scene);
   std::vector<std::unique_ptr<const PinJoint>> pins;
   for (const Pin& pin : scene.pins) {
     const std::size_t first = index.Node(pin.nodes[0]), second = index.Node(pin.nodes[1]);
     pins.push_back(std::make_unique<const PinJoint>(
         MovingPlace::Between(structure.PointOf(static_cast<int>(second)), structure.PointOf(static_cast<int>(first))),
-        written(first) - written(second)));
+        written(first) - written(second), in_loops[pins.size()] ? tolerances::kRootOfRounding : 0.0));
   }
   return pins;
 }

@@ -42,8 +42,8 @@ bool IncrementLists::Fit(const Increment& increment) const {
   const bool forces = increment.supports.size() == supports_ && increment.boundaries.size() == boundaries_ &&
                       increment.bars.size() == bars_ && increment.pins.size() == pins_;
   const InnerState& inner = increment.inner;
-  const bool no_inner = inner.positions.empty() && inner.rotations.empty() && inner.contacts.empty() &&
-                        inner.pins.empty();
+  const bool no_inner =
+      inner.positions.empty() && inner.rotations.empty() && inner.contacts.empty() && inner.pins.empty();
   if (increment.positions.empty())
     return forces && no_inner && increment.rotations.empty() && increment.contacts.empty() &&
            increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty() &&

@@ -47,8 +47,7 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
                              CountedFrom(origin, configuration_in).Over(scaling.length).slip_origins)),
       bars(BuildSlackBars(scaled, index, structure,
                           CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
-      pins(BuildPins(scaled, index, structure,
-                     CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
+      pins(BuildPins(scaled, index, structure, CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
       laws(AllLaws(contacts, bars, pins)),
       reactions(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length), scaling),
       check(scene_in, configuration_in, scaling_in) {}

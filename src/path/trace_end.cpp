@@ -51,7 +51,7 @@ std::optional<Cause> Escape(const Escaping& trace) {
   const Model& model = trace.model;
   const PathPoint &now = trace.now, &before = trace.before;
   bool opened = !model.contacts.empty() && trace.largest_reaction > 0.0;
-  for (std::size_t i = 0; i < model.laws.size(); ++i) 
+  for (std::size_t i = 0; i < model.laws.size(); ++i)
     opened = opened && (model.laws[i].In(now.modes[i]).idle || !model.laws[i].CanBeIdle());
   if (!opened || !trace.request.options.stop.empty()) return std::nullopt;
   // The load of a structure that snaps may come back.

@@ -168,9 +168,9 @@ class StructureRules {
       return checker_.Add(key, ListText(nodes), "must not be repeated: an earlier pin holds these nodes together");
     const double apart = std::hypot(second->x - first->x, second->y - first->y);
     if (apart > kWrittenRounding * ExtentOfNodes(scene_))
-      return checker_.Add(key, ListText(nodes),
-                          "the two nodes must be at the same point at the start: they are " + NumberText(apart) +
-                              " apart");
+      return checker_.Add(
+          key, ListText(nodes),
+          "the two nodes must be at the same point at the start: they are " + NumberText(apart) + " apart");
     if (!CanMove(*first) && !CanMove(*second))
       return checker_.Add(key, ListText(nodes), "one of the two nodes must be free to move");
     if (!(pin.stiffness > 0.0)) return;

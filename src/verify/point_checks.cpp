@@ -170,8 +170,8 @@ void PointChecks::CheckRecorded(const Increment& increment, const Residuals& res
     const double rt = contact.state == ContactState::kStick ? contact.rt : 0.0;
     given += 0.5 * stage_.check.Give(i) * (contact.rn * contact.rn + rt * rt);
   }
-  for (const Resultant& pin : increment.pins)
-    given += 0.5 * stage_.check.GiveOfPins() * (pin.rx * pin.rx + pin.ry * pin.ry);
+  for (std::size_t i = 0; i < increment.pins.size(); ++i)
+    given += 0.5 * stage_.check.GiveOfPin(i) * (std::pow(increment.pins[i].rx, 2) + std::pow(increment.pins[i].ry, 2));
   same("scaled strain energy", increment.strain_energy / stage_.Energy(),
        (stage_.check.StrainEnergy(increment.positions, increment.rotations) + given) / stage_.Energy(),
        std::numeric_limits<double>::epsilon() * stage_.stiffest);

@@ -313,6 +313,12 @@ void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double
       EXPECT_NEAR(a.contacts[k].rn, e.contacts[k].rn, force) << k;
       EXPECT_NEAR(a.contacts[k].rt, e.contacts[k].rt, force) << k;
     }
+    ASSERT_EQ(a.pins.size(), e.pins.size());
+    for (std::size_t k = 0; k < e.pins.size(); ++k) {
+      EXPECT_NEAR(a.pins[k].rx, e.pins[k].rx, force) << k;
+      EXPECT_NEAR(a.pins[k].ry, e.pins[k].ry, force) << k;
+      EXPECT_NEAR(a.pins[k].rm, e.pins[k].rm, energy) << k;
+    }
     EXPECT_NEAR(a.dissipation, e.dissipation, energy);
     EXPECT_NEAR(a.strain_energy, e.strain_energy, energy);
     EXPECT_NEAR(a.external_work, e.external_work, energy);

@@ -109,9 +109,10 @@ class ResidualCheck {
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
   // What forces may be off by where curvatures jump below contacts that give way [force].
   double Uncertain(const CheckedState& state) const;
-  // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body. The same of a pin.
+  // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body. Of a pin; 0 where
+  // it is in no loop.
   double Give(std::size_t contact) const;
-  double GiveOfPins() const;
+  double GiveOfPin(std::size_t pin) const;
   // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws
   // std::invalid_argument where the configuration has no slip_origins.
   double TotalSlip(std::size_t contact, const CheckedState& state) const;

@@ -17,12 +17,11 @@ namespace contact_path {
 // The ports have the motions x_1 - x_2 - (X_1 - X_2) along x and y [length], X_1 and X_2 the same point but for the
 // rounding of its coordinates, and the force r on the first point by the second. There is one state:
 //   x_1 - x_2 - (X_1 - X_2) + compliance r = 0
-// The compliance makes the forces of redundant pins unique, as of contacts of bodies.
 class PinJoint : public Law {
  public:
-  // apart: from the second point to the first; at_start: X_1 - X_2. It must not depend on more than kMostLawDofs
-  // unknowns.
-  PinJoint(MovingPlace apart, const Eigen::Vector2d& at_start);
+  // apart: from the second point to the first; at_start: X_1 - X_2. compliance: of its ports, where forces need not be
+  // determined without.
+  PinJoint(MovingPlace apart, const Eigen::Vector2d& at_start, double compliance);
 
   void Evaluate(const Eigen::VectorXd& u, double s, int piece, const PortReals& reference,
                 PortsAt* ports) const override;

@@ -49,6 +49,11 @@ inline bool IsAttached(const Node& node) { return !node.body.empty() && node.bod
 // The node whose rotation is that of what holds the node: its body, or itself.
 inline const std::string& TurnsWith(const Node& node) { return node.body.empty() ? node.name : node.body; }
 
+// By pin of an expanded scene: whether it is part of a loop of pins, from body or node to body or node, or from one
+// thing that a support or a contact may hold to another. Only there may equilibrium not tell the forces of pins. Names
+// that the scene does not have count for nothing.
+std::vector<bool> PinsInLoops(const Scene& scene);
+
 // The circle of a contact that rolls; null for others, and where the scene does not have its obstacle.
 const Obstacle* RollingCircle(const ContactCandidate& contact, const Scene& scene);
 

@@ -16,7 +16,7 @@ from contact_path.structure.expanded import expanded, text_of
 
 PROGRAM = 'contact_path_response'
 #: What can be asked for, as `record` has it, and reactions -> lists of increments.
-LISTS = {'reactions': ('supports', 'boundaries', 'pins'), 'sections': ('sections',), 'stresses': ('stresses',),
+LISTS = {'reactions': ('supports', 'boundaries'), 'sections': ('sections',), 'stresses': ('stresses',),
          'pressures': ('pressures', 'widths')}
 
 AnyPath = TypeVar('AnyPath', bound=Increments)
