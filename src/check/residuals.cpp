@@ -33,6 +33,9 @@ constexpr Real kStiffForce = 1e-4L;
 // over F.
 constexpr Real kGive = 1e-8L;
 
+// Over L: a pin that has to give way by more holds its nodes together no more, as where supports pull them apart.
+constexpr Real kMostGiven = 1e-6L;
+
 // The larger of the two. What is no finite double counts as infinite, so that NaN never passes as small.
 double Worst(double worst, Real value) {
   if (!(value <= static_cast<Real>(std::numeric_limits<double>::max()))) return std::numeric_limits<double>::infinity();
@@ -258,9 +261,9 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   }
   for (std::size_t k = 0; k < scene.pins.size(); ++k) {
     const Prepared::PreparedPin& pin = scene.pins[k];
-    const Vector force{now.pins[2 * k], now.pins[2 * k + 1]};
-    const Vector apart = NodePosition(now.positions, pin.first) - NodePosition(now.positions, pin.second) -
-                         pin.written + static_cast<Real>(GiveOfPin(k)) * force;
+    const Vector given = static_cast<Real>(GiveOfPin(k)) * Vector{now.pins[2 * k], now.pins[2 * k + 1]};
+    Vector apart = NodePosition(now.positions, pin.first) - NodePosition(now.positions, pin.second) - pin.written;
+    if (check::Length(given) <= kMostGiven * scaling.length) apart = apart + given;
     residuals.support = Worst(residuals.support, check::Length(apart) / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
