@@ -78,13 +78,14 @@ class StructureRules {
     add_names(scene_.nodes);
     add_names(scene_.obstacles);
     add_names(scene_.surfaces);
+    const KeyPath pins = kScene.Key("pins");
     for (std::size_t i = 0; i < scene_.pins.size(); ++i) {
-      const KeyPath key = kScene.Key("pins")[i].Key("name");
       const std::string name = PinName(scene_.pins[i], i);
       if (reacting.count(name) > 0)
-        checker_.Add(key, name, "must not be the name of a node, a body, an obstacle or a surface, too");
+        checker_.Add(pins[i].Key("name"), name,
+                     "must not be the name of a node, a body, an obstacle or a surface, too");
       else
-        checker_.CheckName(key, name, &earlier_pins);
+        checker_.CheckName(pins[i].Key("name"), name, &earlier_pins);
     }
   }
 
