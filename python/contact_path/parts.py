@@ -25,7 +25,7 @@ Function = TypeVar('Function', bound=Callable[..., Any])
 
 #: Lists of parts of a scene, in the order of scene files. A method of Parts or Loading for each, named by its singular.
 LISTS = ('nodes', 'bars', 'superelements', 'beams', 'materials', 'solids', 'groups', 'surfaces', 'loads', 'obstacles', 'contacts',
-         'supports', 'support_motions', 'obstacle_motions', 'bodies', 'tendons')
+         'supports', 'support_motions', 'obstacle_motions', 'bodies', 'tendons', 'pins')
 #: Where it is not the list without its last letter.
 SINGULARS = {'bodies': 'body'}
 
@@ -162,6 +162,12 @@ class Parts(Loading):
         """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group. obstacles:
         a circle that a body carries and what it rolls on, called CIRCLE@OBSTACLE. friction: coefficient [-]; with an obstacle, 0: its own."""
         self._add('contacts', locals())
+
+    @named
+    def pin(self, nodes: Texts, *, stiffness: float = 0.0, angle: float = 0.0, name: str = '') -> None:
+        """Two nodes that stay together, with a rotational spring between their bodies or beams: stiffness [force length/rad], 0: none;
+        angle [rad]: relative turn from the first to the second without moment; name: of its columns."""
+        self._add('pins', locals())
 
     @named
     def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0,

@@ -273,6 +273,34 @@ class Segment : public Element {
   Vector chord_;                       // at the start
 };
 
+// W = k (theta_2 - theta_1 - angle)^2 / 2: the spring of a pin, between what turns with its nodes.
+class Spring : public Element {
+ public:
+  Spring(const Pin& pin, const std::vector<std::size_t>& turning, std::size_t num_positions)
+      : Element(Kind::kSpring, turning),
+        first_(num_positions + turning.at(0)),
+        second_(num_positions + turning.at(1)),
+        stiffness_(pin.stiffness),
+        angle_(pin.angle) {}
+
+  bool Turns() const override { return false; }
+  Real Stiffness() const override { return 0.0L; }  // against motions
+
+  void AddEnergy(const std::vector<double>& values, Real* energy) const override {
+    *energy += stiffness_ * Turn(values) * Turn(values) / 2.0L;
+  }
+  void AddForce(const std::vector<double>& values, std::vector<Real>* forces) const override {
+    (*forces)[first_] -= stiffness_ * Turn(values);
+    (*forces)[second_] += stiffness_ * Turn(values);
+  }
+
+ private:
+  Real Turn(const std::vector<double>& values) const { return Real{values[second_]} - values[first_] - angle_; }
+
+  std::size_t first_, second_;  // among the values
+  Real stiffness_, angle_;
+};
+
 using Elements = std::vector<std::unique_ptr<const Element>>;
 using NodeList = std::vector<std::size_t>;
 
@@ -297,6 +325,21 @@ void Place(const Beam& beam, const Scene&, const NodeList& nodes, const std::vec
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
     elements->push_back(std::make_unique<Segment>(beam, nodes[i], nodes[i + 1], i > 0 || !hinged(0),
                                                   i + 2 < nodes.size() || !hinged(1), reference));
+}
+
+void Place(const Pin& pin, const Scene& scene, const NodeList& nodes, const std::vector<double>& reference,
+           Elements* elements) {
+  if (pin.stiffness == 0.0) return;
+  NodeList turning;
+  for (const std::size_t node : nodes) {
+    const std::string& body = scene.nodes[node].body;
+    const auto is_body = [&](const Node& of) { return of.name == body; };
+    turning.push_back(body.empty()
+                          ? node
+                          : static_cast<std::size_t>(std::find_if(scene.nodes.begin(), scene.nodes.end(), is_body) -
+                                                     scene.nodes.begin()));
+  }
+  elements->push_back(std::make_unique<Spring>(pin, turning, reference.size()));
 }
 
 // The elements of a mesh.

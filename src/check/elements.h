@@ -34,7 +34,7 @@ class Element {
  public:
   virtual ~Element() = default;
 
-  enum class Kind { kBar, kSegment, kLinearPart, kSolid, kTendon };
+  enum class Kind { kBar, kSegment, kLinearPart, kSolid, kTendon, kSpring };
   Kind GetKind() const { return kind_; }
   const std::vector<std::size_t>& Nodes() const { return nodes_; }
   // Whether the directions of its forces turn with the motion.

@@ -29,8 +29,12 @@ using check::Vector;
 // Force, of the stiffness at a node times L: the rounding of coordinates makes forces of 1e-11 of it.
 constexpr Real kStiffForce = 1e-4L;
 
-// Contacts of rigid bodies give way, so that reactions are unique: by this motion over L per force over F.
+// Contacts of rigid bodies and pins in loops give way, so that reactions are unique: by this motion over L per force
+// over F.
 constexpr Real kGive = 1e-8L;
+
+// Over L: a pin that has to give way by more holds its nodes together no more, as where supports pull them apart.
+constexpr Real kMostGiven = 1e-6L;
 
 // The larger of the two. What is no finite double counts as infinite, so that NaN never passes as small.
 double Worst(double worst, Real value) {
@@ -44,7 +48,7 @@ bool AllFinite(const std::vector<double>& values) {
 
 bool AllFinite(const CheckedState& state) {
   return std::isfinite(state.load_factor) && AllFinite(state.positions) && AllFinite(state.rotations) &&
-         AllFinite(state.rn) && AllFinite(state.rt);
+         AllFinite(state.rn) && AllFinite(state.rt) && AllFinite(state.pins);
 }
 
 void RequireSize(const std::vector<double>& values, std::size_t size, const char* name) {
@@ -57,6 +61,11 @@ void RequireSize(const std::vector<double>& values, std::size_t size, const char
 
 // The scene with all names resolved; vectors in the order of the scene's lists.
 struct ResidualCheck::Prepared {
+  struct PreparedPin {
+    std::size_t first, second;  // nodes
+    Vector written;             // from the second to the first, rounding of what is written
+    bool gives = false;
+  };
   struct PreparedLoad {
     std::size_t node = 0;
     Real fx = 0.0L, fy = 0.0L, moment = 0.0L;
@@ -77,6 +86,13 @@ struct ResidualCheck::Prepared {
       start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
     }
     elements = check::MakeElements(scene, index, configuration.reference);
+    const std::vector<bool> in_loops = PinsInLoops(scene);
+    for (const Pin& pin : scene.pins) {
+      const std::size_t first = index.at(pin.nodes.at(0)), second = index.at(pin.nodes.at(1));
+      pins.push_back({first, second,
+                      NodePosition(configuration.reference, first) - NodePosition(configuration.reference, second),
+                      in_loops[pins.size()]});
+    }
     // Coordinates are rounded relative to their size.
     Real size = scaling.length;
     for (const double coordinate : configuration.start) size = std::max<Real>(size, std::abs(coordinate));
@@ -152,6 +168,11 @@ struct ResidualCheck::Prepared {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
       contacts[i]->AddForces(placed, state.rn[i], state.rt[i], -1.0L, &forces);
     }
+    for (std::size_t k = 0; k < pins.size(); ++k) {
+      const Vector on_first{state.pins[2 * k], state.pins[2 * k + 1]};
+      AddTo(&forces, pins[k].first, -1.0L * on_first);
+      AddTo(&forces, pins[k].second, on_first);
+    }
     attached->GiveToBodies(values, &forces);
     return forces;
   }
@@ -161,6 +182,7 @@ struct ResidualCheck::Prepared {
     RequireSize(state.rotations, start.size() - num_positions, "rotations");
     RequireSize(state.rn, contacts.size(), "rn");
     RequireSize(state.rt, contacts.size(), "rt");
+    RequireSize(state.pins, 2 * pins.size(), "pins");
   }
 
   Scaling scaling;
@@ -172,6 +194,7 @@ struct ResidualCheck::Prepared {
   Real largest_stiffness = 0.0L;  // of all nodes, as LargestStiffness()
   std::vector<double> rates;      // of the fixed ones, per unit of the load factor
   std::vector<std::unique_ptr<const check::Element>> elements;
+  std::vector<PreparedPin> pins;
   std::vector<PreparedLoad> loads;
   std::vector<std::unique_ptr<const check::Contact>> contacts;
   std::vector<Real> contact_units;
@@ -235,6 +258,13 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     for (std::size_t i = 0; i < now.rotations.size(); ++i)
       residuals.support =
           Worst(residuals.support, std::abs(static_cast<Real>(now.rotations[i]) - settled.rotations[i]));
+  }
+  for (std::size_t k = 0; k < scene.pins.size(); ++k) {
+    const Prepared::PreparedPin& pin = scene.pins[k];
+    const Vector given = static_cast<Real>(GiveOfPin(k)) * Vector{now.pins[2 * k], now.pins[2 * k + 1]};
+    Vector apart = NodePosition(now.positions, pin.first) - NodePosition(now.positions, pin.second) - pin.written;
+    if (check::Length(given) <= kMostGiven * scaling.length) apart = apart + given;
+    residuals.support = Worst(residuals.support, check::Length(apart) / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const check::Contact& contact = *scene.contacts[i];
@@ -346,6 +376,11 @@ double ResidualCheck::GapPastEnd(std::size_t contact, const CheckedState& state)
 double ResidualCheck::Give(std::size_t contact) const {
   const Scaling& scaling = prepared_->scaling;
   return prepared_->contacts[contact]->Gives() ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
+}
+
+double ResidualCheck::GiveOfPin(std::size_t pin) const {
+  const Scaling& scaling = prepared_->scaling;
+  return prepared_->pins[pin].gives ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
 }
 
 double ResidualCheck::Uncertain(const CheckedState& state) const {

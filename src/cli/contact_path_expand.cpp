@@ -37,7 +37,7 @@ Json Expanded(const TraceRequest& given) {
     object["scene"]["beams"][i]["name"] = BeamName(scene.beams[i], i);
   const std::vector<bool> turns = NodesThatTurn(scene);
   Json turning = Json::array(), supports = Json::array(), boundaries = Json::array(), contacts = Json::array(),
-       bars = Json::array();
+       bars = Json::array(), pins = Json::array();
   for (std::size_t i = 0; i < turns.size(); ++i)
     if (turns[i]) turning.push_back(scene.nodes[i].name);
   for (const SupportedNode& support : SupportedNodes(scene))
@@ -47,6 +47,8 @@ Json Expanded(const TraceRequest& given) {
     boundaries.push_back({{"name", boundary.name}, {"is_surface", boundary.is_surface}});
   for (const ContactCandidate& contact : scene.contacts) contacts.push_back(contact.Name());
   for (const OneSidedBar& bar : OneSidedBars(scene)) bars.push_back(bar.name);
+  for (std::size_t i = 0; i < scene.pins.size(); ++i)
+    pins.push_back({{"name", PinName(scene.pins[i], i)}, {"has_spring", scene.pins[i].stiffness > 0.0}});
   const Scaling scales = ProgramScales(request);
   object["scales"] = {{"length", scales.length}, {"force", scales.force}};
   const ElementNames names(scene);
@@ -55,6 +57,7 @@ Json Expanded(const TraceRequest& given) {
                      {"boundaries", boundaries},
                      {"contacts", contacts},
                      {"bars", bars},
+                     {"pins", pins},
                      {"sections", ListOf(names.NumSections(), [&](std::size_t i) { return names.SectionName(i); })},
                      {"elements", ListOf(names.NumElements(), [&](std::size_t i) { return names.ElementName(i); })}};
   return object;

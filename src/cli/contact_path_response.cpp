@@ -58,6 +58,9 @@ Increment IncrementFrom(const Json& line, std::int64_t stages) {
   }
   for (const std::string& word : line.value("bars", std::vector<std::string>()))
     increment.bars.push_back(BarStateFrom(word));
+  if (line.contains("pins") && !line.at("pins").is_array()) throw std::invalid_argument("pins: must be a list");
+  for (const Json& pin : line.value("pins", Json::array()))
+    increment.pins.push_back({pin.at("rx").get<double>(), pin.at("ry").get<double>()});
   return increment;
 }
 
@@ -81,13 +84,18 @@ class Responder {
                 "rotations");
     RequireSize(increment.contacts.size(), Request().scene.contacts.size(), "contacts");
     RequireSize(increment.bars.size(), OneSidedBars(Request().scene).size(), "bars");
+    RequireSize(increment.pins.size(), Request().scene.pins.size(), "pins");
     SetStage(static_cast<std::size_t>(std::max(increment.stage, 1) - 1));
     const PathPoint point = model_->FromIncrement(increment);
     FillState(*model_, point, &increment);
     FillLists(*model_, point, {true, true, true}, &increment);
-    Json answer = {{"supports", JsonOf(increment.supports)},   {"boundaries", JsonOf(increment.boundaries)},
-                   {"sections", JsonOf(increment.sections)},   {"stresses", JsonOf(increment.stresses)},
-                   {"pressures", JsonOf(increment.pressures)}, {"widths", increment.widths}};
+    Json answer = {{"supports", JsonOf(increment.supports)},
+                   {"boundaries", JsonOf(increment.boundaries)},
+                   {"pins", JsonOf(increment.pins)},
+                   {"sections", JsonOf(increment.sections)},
+                   {"stresses", JsonOf(increment.stresses)},
+                   {"pressures", JsonOf(increment.pressures)},
+                   {"widths", increment.widths}};
     if (!AllFinite(answer)) throw std::invalid_argument("the numbers are beyond what can be computed");
     return answer;
   }

@@ -34,13 +34,15 @@ TraceLog::TraceLog(const TraceRequest& request, std::ostream* out)
   header["accuracy"] = JsonOf(request.options.accuracy);
   header["friction_law"] = JsonOf(request.options.friction_law);
   header["scaling"] = {{"length", scaling.length}, {"force", scaling.force}, {"load_factor", scaling.load_factor}};
-  Json nodes = Json::array(), contacts = Json::array(), bars = Json::array();
+  Json nodes = Json::array(), contacts = Json::array(), bars = Json::array(), pins = Json::array();
   for (const Node& node : request.scene.nodes) nodes.push_back(node.name);
   for (const ContactCandidate& contact : request.scene.contacts) contacts.push_back(contact.Name());
   for (const OneSidedBar& bar : OneSidedBars(request.scene)) bars.push_back(bar.name);
+  for (std::size_t i = 0; i < request.scene.pins.size(); ++i) pins.push_back(PinName(request.scene.pins[i], i));
   header["nodes"] = std::move(nodes);
   header["contacts"] = std::move(contacts);
   header["bars"] = std::move(bars);
+  header["pins"] = std::move(pins);
   WriteLine(header, &out_);
 }
 

@@ -11,7 +11,7 @@ FixedModeSystem::FixedModeSystem(const Structure& structure, const Laws& laws)
   if (structure.NumDofs() > 0) residual_unit_ = structure.ResidualUnits().maxCoeff();
   Modes idle(laws.size());
   for (std::size_t i = 0; i < laws.size(); ++i)
-    while (!laws[i].In(idle[i]).idle) ++idle[i].state;
+    while (laws[i].CanBeIdle() && !laws[i].In(idle[i]).idle) ++idle[i].state;
   SetModes(idle);
 }
 

@@ -61,9 +61,13 @@ int Law::AllHeld() const {
   return static_cast<int>(std::find_if(states_.begin(), states_.end(), all) - states_.begin());
 }
 
+bool Law::CanBeIdle() const {
+  return std::any_of(states_.begin(), states_.end(), [](const StateRule& state) { return state.idle; });
+}
+
 PortReals Law::ReferenceOf(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const {
   PortReals reference = ReferenceAt(u, s, mode.piece);
-  if (!Compliant() || Elastic()) return reference;
+  if (!Compliant() || Elastic() || !CanBeIdle()) return reference;
   const StateRule& held = In(In(mode).held);
   if (const double compliance = held.ports[0].compliance; compliance != 0.0) {
     const double gap = Motion(0, u, s, mode.piece, {}) + compliance * forces[0];
@@ -103,7 +107,6 @@ double ForceUnitAbove(double bound) {
 void Law::SetLaw(const Traits& traits, std::vector<StateRule> states) {
   traits_ = traits;
   states_ = std::move(states);
-  bool one_idle = states_.empty();
   for (StateRule& state : states_) {
     for (const PortRule& port : state.ports) {
       state.idle = state.idle && port.kind == PortRule::Kind::kFree;
@@ -112,9 +115,10 @@ void Law::SetLaw(const Traits& traits, std::vector<StateRule> states) {
     if (state.slides && !state.ports[0].Holds())
       throw std::logic_error("law: where a port follows, port 0 must be held");
     if (state.held < 0 || state.held >= NumStates()) throw std::logic_error("law: held must be a state");
-    one_idle = one_idle || state.idle;
   }
-  if (!one_idle) throw std::logic_error("law: a state must have no forces");
+  if (states_.size() > 1 && !CanBeIdle()) throw std::logic_error("law: one of several states must have no forces");
+  if (!states_.empty() && !CanBeIdle() && !states_.front().limits.empty())
+    throw std::logic_error("law: what always acts must have no limits");
   if (!std::is_sorted(traits_.dofs.begin(), traits_.dofs.end()))
     throw std::logic_error("law: degrees of freedom must ascend");
 }

@@ -71,6 +71,10 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
   const std::vector<TouchedBoundary> boundaries = TouchedBoundaries(scene);
   for (std::size_t i = 0; i < boundaries.size(); ++i)
     if (!index.FindSupport(boundaries[i].name)) add_fields(&Increment::boundaries, i, boundaries[i].name, AllFields);
+  for (std::size_t i = 0; i < scene.pins.size(); ++i)
+    add_fields(
+        &Increment::pins, i, PinName(scene.pins[i], i),
+        [has_spring = scene.pins[i].stiffness > 0.0](std::string_view field) { return field != "rm" || has_spring; });
   if (options.stability == DefaultTrue::kTrue) add_place(Place::kOfStability);
   if (options.machine_stiffness > 0.0) add_place(Place::kOfMachine);
   if (options.at_limit == AtLimit::kJump) add_place(Place::kOfJumps);

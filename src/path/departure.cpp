@@ -16,6 +16,7 @@ double CoverMotions(const Laws& laws, const PathPoint& point, double tolerance) 
   std::vector<double> beyond;
   bool among = false;
   for (std::size_t i = 0; i < laws.size(); ++i) {
+    if (!laws[i].CanBeIdle()) continue;
     const double motion = laws[i].Motion(0, point.u, point.s, point.modes[i].piece, {});
     among = among || (motion > 0.5 * tolerance && motion <= tolerance);
     if (motion > tolerance && motion <= 0.5 * tolerances::kTouching) beyond.push_back(motion);

@@ -273,9 +273,10 @@ Cause SlidesOffCause(const Model& model, const Limit& limit) {
 }
 
 Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, double tolerance) {
+  // Pins have no limits.
   const auto i = static_cast<std::size_t>(limit.law);
-  if (i >= model.contacts.size())
-    return {sentences::kBarRateSign, OneSidedBars(model.scene)[i - model.contacts.size()].name, rate, tolerance};
+  if (i >= model.LawOfBar(0))
+    return {sentences::kBarRateSign, OneSidedBars(model.scene)[i - model.LawOfBar(0)].name, rate, tolerance};
   return {SignOfRate(static_cast<ContactLimit>(limit.id)), model.scene.contacts[i].Name(), rate, tolerance};
 }
 

@@ -49,7 +49,7 @@ class Restorer {
     }
     // The states of bars are on record in every increment.
     for (std::size_t k = 0; k < wanted.bars.size(); ++k)
-      begin.modes[model_.contacts.size() + k].state = NumberOf(wanted.bars[k]);
+      begin.modes[model_.LawOfBar(k)].state = NumberOf(wanted.bars[k]);
     arc_.SetModes(begin);
     CurvePoint start;
     if (!arc_.Derivatives(arc_.system().Pack(from), *towards, &start)) return false;

@@ -13,6 +13,7 @@ CheckedState CheckedStateOf(const Record& record) {
     state.rn.push_back(contact.rn);
     state.rt.push_back(contact.rt);
   }
+  for (const Resultant& pin : record.pins) state.pins.insert(state.pins.end(), {pin.rx, pin.ry});
   return state;
 }
 

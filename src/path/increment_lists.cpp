@@ -29,7 +29,8 @@ IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& in
       contacts_(request.scene.contacts.size()),
       supports_(SupportedNodes(request.scene).size()),
       boundaries_(TouchedBoundaries(request.scene).size()),
-      bars_(OneSidedBars(request.scene).size()) {
+      bars_(OneSidedBars(request.scene).size()),
+      pins_(request.scene.pins.size()) {
   const LongLists lists = LongLists::Of(request, index);
   sections_ = lists.sections ? index.Elements().NumSections() : 0;
   stresses_ = lists.stresses ? index.Elements().NumElements() : 0;
@@ -39,15 +40,16 @@ IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& in
 
 bool IncrementLists::Fit(const Increment& increment) const {
   const bool forces = increment.supports.size() == supports_ && increment.boundaries.size() == boundaries_ &&
-                      increment.bars.size() == bars_;
+                      increment.bars.size() == bars_ && increment.pins.size() == pins_;
   const InnerState& inner = increment.inner;
-  const bool no_inner = inner.positions.empty() && inner.rotations.empty() && inner.contacts.empty();
+  const bool no_inner =
+      inner.positions.empty() && inner.rotations.empty() && inner.contacts.empty() && inner.pins.empty();
   if (increment.positions.empty())
     return forces && no_inner && increment.rotations.empty() && increment.contacts.empty() &&
            increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty() &&
            increment.widths.empty();
   const bool inner_fits = no_inner || (inner.positions.size() == 2 * nodes_ && inner.rotations.size() == rotations_ &&
-                                       inner.contacts.size() == contacts_);
+                                       inner.contacts.size() == contacts_ && inner.pins.size() == pins_);
   return forces && inner_fits && increment.positions.size() == 2 * nodes_ && increment.rotations.size() == rotations_ &&
          increment.contacts.size() == contacts_ && increment.sections.size() == sections_ &&
          increment.stresses.size() == stresses_ && increment.pressures.size() == pressures_ &&

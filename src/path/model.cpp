@@ -16,9 +16,11 @@ std::size_t PositionIndex(const DofMap::Component& position) {
   return static_cast<std::size_t>(kPositionComponents * position.node + position.component);
 }
 
-Laws AllLaws(const ContactPairs& contacts, const std::vector<std::unique_ptr<const SlackBar>>& bars) {
+Laws AllLaws(const ContactPairs& contacts, const std::vector<std::unique_ptr<const SlackBar>>& bars,
+             const std::vector<std::unique_ptr<const PinJoint>>& pins) {
   Laws laws = LawsOf(contacts);
   for (const auto& bar : bars) laws.Add(bar.get());
+  for (const auto& pin : pins) laws.Add(pin.get());
   return laws;
 }
 
@@ -45,7 +47,8 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
                              CountedFrom(origin, configuration_in).Over(scaling.length).slip_origins)),
       bars(BuildSlackBars(scaled, index, structure,
                           CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
-      laws(AllLaws(contacts, bars)),
+      pins(BuildPins(scaled, index, structure, CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
+      laws(AllLaws(contacts, bars, pins)),
       reactions(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length), scaling),
       check(scene_in, configuration_in, scaling_in) {}
 
@@ -129,6 +132,10 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
     state.rn.push_back(NormalReaction(point, i) * scaling.force);
     state.rt.push_back(contacts[i]->OnRecord(point.u, point.s, TangentialReaction(point, i)) * scaling.force);
   }
+  for (std::size_t pin = 0; pin < pins.size(); ++pin) {
+    const PortReals forces = laws.Of(point.forces, LawOfPin(pin));
+    state.pins.insert(state.pins.end(), {forces[0] * scaling.force, forces[1] * scaling.force});
+  }
   return state;
 }
 
@@ -153,9 +160,13 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
     point.modes.push_back({NumberOf(contact.state), 0});
   }
   for (std::size_t k = 0; k < bars.size(); ++k) {
-    const std::size_t i = contacts.size() + k;
+    const std::size_t i = LawOfBar(k);
     point.modes.push_back({NumberOf(increment.bars[k]), 0});
     laws.Put(laws[i].CompliantForces(point.u, point.s, point.modes[i]), i, &point.forces);
+  }
+  for (std::size_t k = 0; k < pins.size(); ++k) {
+    point.modes.push_back({});
+    laws.Put({increment.pins[k].rx / scaling.force, increment.pins[k].ry / scaling.force}, LawOfPin(k), &point.forces);
   }
   NotePieces(&point);
   return point;
@@ -182,7 +193,7 @@ Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {
 
 std::vector<BarState> Model::BarStatesIn(const Modes& modes) const {
   std::vector<BarState> states;
-  for (std::size_t i = contacts.size(); i < modes.size(); ++i) states.push_back(static_cast<BarState>(modes[i].state));
+  for (std::size_t k = 0; k < bars.size(); ++k) states.push_back(static_cast<BarState>(modes[LawOfBar(k)].state));
   return states;
 }
 

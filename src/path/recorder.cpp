@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contact_path/path/sentences.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -37,10 +38,27 @@ std::vector<ContactRecord> ContactsAt(const Model& model, const PathPoint& point
   return contacts;
 }
 
+std::vector<Resultant> PinsAt(const Model& model, const CheckedState& state) {
+  std::vector<Resultant> pins;
+  for (const Pin& pin : model.scene.pins) {
+    Resultant& of = pins.emplace_back();
+    of.rx = state.pins[2 * pins.size() - 2];
+    of.ry = state.pins[2 * pins.size() - 1];
+    if (pin.stiffness == 0.0) continue;
+    const auto rotation = [&](const std::string& node) {
+      return state.rotations[model.index.Node(TurnsWith(model.scene.nodes[model.index.Node(node)]))];
+    };
+    of.rm = pin.stiffness * (rotation(pin.nodes[1]) - rotation(pin.nodes[0]) - pin.angle);
+  }
+  return pins;
+}
+
 InnerState InnerStateAt(const Model& model, const PathPoint& point) {
   CheckedState state = model.InSceneUnits(point);
   std::vector<ContactRecord> contacts = ContactsAt(model, point, state);
-  return {state.load_factor, std::move(state.positions), std::move(state.rotations), std::move(contacts)};
+  std::vector<Resultant> pins = PinsAt(model, state);
+  return {state.load_factor, std::move(state.positions), std::move(state.rotations), std::move(contacts),
+          std::move(pins)};
 }
 
 }  // namespace
@@ -48,6 +66,7 @@ InnerState InnerStateAt(const Model& model, const PathPoint& point) {
 void FillState(const Model& model, const PathPoint& point, Increment* increment) {
   CheckedState state = model.InSceneUnits(point);
   increment->contacts = ContactsAt(model, point, state);
+  increment->pins = PinsAt(model, state);
   increment->positions = std::move(state.positions);
   increment->rotations = std::move(state.rotations);
   increment->bars = model.BarStatesIn(point.modes);

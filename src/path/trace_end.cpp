@@ -51,7 +51,8 @@ std::optional<Cause> Escape(const Escaping& trace) {
   const Model& model = trace.model;
   const PathPoint &now = trace.now, &before = trace.before;
   bool opened = !model.contacts.empty() && trace.largest_reaction > 0.0;
-  for (std::size_t i = 0; i < model.laws.size(); ++i) opened = opened && model.laws[i].In(now.modes[i]).idle;
+  for (std::size_t i = 0; i < model.laws.size(); ++i)
+    opened = opened && (model.laws[i].In(now.modes[i]).idle || !model.laws[i].CanBeIdle());
   if (!opened || !trace.request.options.stop.empty()) return std::nullopt;
   // The load of a structure that snaps may come back.
   const bool away = trace.target && now.s * *trace.target < 0.0 && std::abs(now.s) > std::abs(*trace.target) &&

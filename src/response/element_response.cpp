@@ -55,6 +55,7 @@ ElementResponse::ElementResponse(const Scene& scaled, const SceneIndex& index, c
   slender.superelements.clear();
   slender.contacts.clear();
   slender.solids.clear();
+  slender.pins.clear();
   const auto place = [&dofs](std::vector<PlacedElement> elements, std::vector<Placed>* to) {
     for (PlacedElement& placed : elements) {
       std::vector<int> components;

@@ -30,6 +30,7 @@ ReactionProblem::ReactionProblem(const Scene& scaled, const SceneIndex& index, c
       released_(WithoutSupports(scaled), index, configuration,
                 MakeElements(scaled, index, configuration.reference, OneSided::kElements)),
       contacts_(BuildContacts(scaled, index, released_)),
+      pins_(BuildPins(scaled, index, released_, configuration.reference)),
       supports_(SupportedNodes(scaled)),
       boundaries_(TouchedBoundaries(scaled)),
       boundary_of_(BoundaryOfContacts(scaled, boundaries_)) {
@@ -92,6 +93,13 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
     sum.rm +=
         scaling_.force * scaling_.length *
         (Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node) + radii_[i] * rt);
+  }
+  for (std::size_t k = 0; k < pins_.size(); ++k) {
+    pins_[k]->Evaluate(u, point.s, 0, {}, &at);
+    // The pins are the last of the laws.
+    const Eigen::Index first = point.forces.size() - 2 * static_cast<Eigen::Index>(pins_.size() - k);
+    for (const Eigen::Index p : {0, 1})
+      at.AddForce(at[static_cast<std::size_t>(p)].gradient, -point.forces[first + p], &missing);
   }
   for (const SupportedNode& support : supports_) {
     const auto number = static_cast<int>(support.node);

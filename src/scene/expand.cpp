@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -278,6 +279,10 @@ std::string TendonName(const Tendon& tendon, std::size_t place) {
   return tendon.name.empty() ? "tendon" + std::to_string(place + 1) : tendon.name;
 }
 
+std::string PinName(const Pin& pin, std::size_t place) {
+  return pin.name.empty() ? "pin" + std::to_string(place + 1) : pin.name;
+}
+
 std::vector<OneSidedBar> OneSidedBars(const Scene& scene) {
   std::vector<OneSidedBar> bars;
   for (std::size_t i = 0; i < scene.bars.size(); ++i)
@@ -317,6 +322,36 @@ std::vector<bool> NodesThatTurn(const Scene& scene) {
       if (const auto node = places.find(beam.nodes[i]); node != places.end() && TurnsNode(beam, i))
         turn[node->second] = true;
   return turn;
+}
+
+std::vector<bool> PinsInLoops(const Scene& scene) {
+  std::vector<bool> in_loops(scene.pins.size(), false);
+  if (scene.pins.empty()) return in_loops;
+  std::unordered_map<std::string_view, std::size_t> places;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) places.emplace(scene.nodes[i].name, i);
+  const std::size_t held = scene.nodes.size();  // what supports and contacts hold
+  const auto owner = [&](const std::string& name) {
+    const auto node = places.find(name);
+    if (node == places.end()) return held;
+    const auto found = places.find(TurnsWith(scene.nodes[node->second]));
+    return found == places.end() ? held : found->second;
+  };
+  std::vector<std::size_t> parents(held + 1);
+  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  const auto root = [](const std::vector<std::size_t>& of, std::size_t i) {
+    while (of[i] != i) i = of[i];
+    return i;
+  };
+  for (const Node& node : scene.nodes)
+    if (node.fixed_x || node.fixed_y || node.fixed_rotation) parents[root(parents, owner(node.name))] = held;
+  for (const ContactCandidate& contact : scene.contacts) parents[root(parents, owner(contact.node))] = held;
+  for (std::size_t k = 0; k < scene.pins.size(); ++k) {
+    std::vector<std::size_t> without = parents;
+    for (std::size_t i = 0; i < scene.pins.size(); ++i)
+      if (i != k) without[root(without, owner(scene.pins[i].nodes[0]))] = root(without, owner(scene.pins[i].nodes[1]));
+    in_loops[k] = root(without, owner(scene.pins[k].nodes[0])) == root(without, owner(scene.pins[k].nodes[1]));
+  }
+  return in_loops;
 }
 
 const Obstacle* RollingCircle(const ContactCandidate& contact, const Scene& scene) {

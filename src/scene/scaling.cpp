@@ -176,7 +176,17 @@ double MeanStiffness(const Scene& scene) {
   return std::sqrt(OrderedSum(std::move(squares)) / static_cast<double>(rows));
 }
 
-// Twice the largest distance of a node from the mean of all nodes [length].
+// Mean stiffness of rotational springs, by its logarithm [force length]; 0 where there is none.
+double MeanSpring(const Scene& scene) {
+  std::vector<double> logarithms;
+  for (const Pin& pin : scene.pins)
+    if (pin.stiffness > 0.0) logarithms.push_back(std::log(pin.stiffness));
+  const auto count = static_cast<double>(logarithms.size());
+  return logarithms.empty() ? 0.0 : std::exp(OrderedSum(std::move(logarithms)) / count);
+}
+
+}  // namespace
+
 double ExtentOfNodes(const Scene& scene) {
   std::vector<double> x, y;
   for (const Node& node : scene.nodes) {
@@ -189,6 +199,8 @@ double ExtentOfNodes(const Scene& scene) {
   for (const Node& node : scene.nodes) largest = std::max(largest, std::hypot(node.x - middle_x, node.y - middle_y));
   return 2.0 * largest;
 }
+
+namespace {
 
 // How far loads move a node of a scene of linear parts that no contact holds [length]: the farthest one, by the
 // constant loads, or by those that the load factor scales, of the norm force_norm. Infinite where contacts alone hold
@@ -280,8 +292,10 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
     scaling.force = ForceOfElements(scene, index, tells ? scaled : 0.0, !tells || MotionNorm(scene) > 0.0);
   } else if (scene.superelements.empty()) {  // rigid bodies alone
     scaling.length = ExtentOfNodes(scene);
-    scaling.force =
-        std::max(LoadNorm(scene, index, false, scaling.length), LoadNorm(scene, index, true, scaling.length));
+    // What the load factor scales has no end where springs tell of forces.
+    const double spring = MeanSpring(scene) / scaling.length;
+    scaling.force = std::max(spring > 0.0 ? spring : LoadNorm(scene, index, false, scaling.length),
+                             LoadNorm(scene, index, true, scaling.length));
     if (scaling.force == 0.0) scaling.force = 1.0;
   } else {
     const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "contact_path/scene/scaling.h"
 #include "scene/rules.h"
 
 namespace contact_path {
@@ -75,6 +76,22 @@ class StructureRules {
       checker_.CheckName(kScene.Key("tendons")[i].Key("name"),
                          tendon.IsPiece() ? name.substr(0, name.rfind('/')) : name, &earlier);
     }
+    std::unordered_set<std::string> earlier_pins, reacting;  // whose columns have names alike
+    const auto add_names = [&](const auto& parts) {
+      for (const auto& part : parts) reacting.insert(part.name);
+    };
+    add_names(scene_.nodes);
+    add_names(scene_.obstacles);
+    add_names(scene_.surfaces);
+    const KeyPath pins = kScene.Key("pins");
+    for (std::size_t i = 0; i < scene_.pins.size(); ++i) {
+      const std::string name = PinName(scene_.pins[i], i);
+      if (reacting.count(name) > 0)
+        checker_.Add(pins[i].Key("name"), name,
+                     "must not be the name of a node, a body, an obstacle or a surface, too");
+      else
+        checker_.CheckName(pins[i].Key("name"), name, &earlier_pins);
+    }
   }
 
  private:
@@ -109,6 +126,8 @@ class StructureRules {
       CheckSpans(nodes, element.nodes, element.IsPiece());
       if (element.friction > 0.0 && element.nodes.size() == 2)
         checker_.Add(path.Key("friction"), NumberText(element.friction), "must be 0 without a node between its ends");
+    } else if constexpr (std::is_same_v<Part, Pin>) {
+      CheckPinned(nodes, element);
     } else if constexpr (!std::is_same_v<Part, Solid>) {  // of a mesh, each element has nodes of its own
       CheckNodeList(nodes, element.nodes);
     }
@@ -142,6 +161,38 @@ class StructureRules {
       checker_.Add(key, ListText(nodes),
                    "must have at most " + std::to_string(kMostTendonUnknowns) + " unknowns that move its nodes: has " +
                        std::to_string(unknowns.size()));
+  }
+
+  void CheckPinned(const KeyPath& key, const Pin& pin) {
+    const std::vector<std::string>& nodes = pin.nodes;
+    if (nodes.size() != 2) return checker_.Add(key, ListText(nodes), "must name two nodes");
+    const Node *const first = checker_.KnownNode(nodes[0]), *const second = checker_.KnownNode(nodes[1]);
+    if (first == nullptr || second == nullptr) return;
+    if (TurnsWith(*first) == TurnsWith(*second))
+      return checker_.Add(key, ListText(nodes),
+                          first == second ? "must name two different nodes"
+                                          : "must not name two nodes of one body: " + TurnsWith(*first));
+    if (!pinned_.insert(std::minmax(nodes[0], nodes[1])).second)
+      return checker_.Add(key, ListText(nodes), "must not be repeated: an earlier pin holds these nodes together");
+    const double apart = std::hypot(second->x - first->x, second->y - first->y);
+    if (apart > kWrittenRounding * ExtentOfNodes(scene_))
+      return checker_.Add(
+          key, ListText(nodes),
+          "the two nodes must be at the same point at the start: they are " + NumberText(apart) + " apart");
+    if (!CanMove(*first) && !CanMove(*second))
+      return checker_.Add(key, ListText(nodes), "one of the two nodes must be free to move");
+    if (!(pin.stiffness > 0.0)) return;
+    for (const Node* const node : {first, second})
+      if (checker_.KnownNode(TurnsWith(*node)) != nullptr && !checker_.Turns(TurnsWith(*node)))
+        checker_.Add(key, node->name,
+                     "must be of a body, or a node that a beam turns, where the pin has a stiffness: a spring turns "
+                     "both of its nodes");
+  }
+
+  // Whether anything of the node is free, or of the body that it moves with.
+  bool CanMove(const Node& node) const {
+    const Node* const moves = checker_.KnownNode(TurnsWith(node));
+    return moves == nullptr || !moves->fixed_x || !moves->fixed_y || (IsAttached(node) && !moves->fixed_rotation);
   }
 
   // What the description of an element does not tell. sound: its fields are.
@@ -186,6 +237,7 @@ class StructureRules {
 
   Checker& checker_;
   const Scene& scene_;
+  std::set<std::pair<std::string, std::string>> pinned_;  // nodes of the pins before
 };
 
 }  // namespace

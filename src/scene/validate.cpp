@@ -61,6 +61,8 @@ void CheckOptions(Checker* checker) {
     if (options.friction_law == FrictionLaw::kTotal)
       checker->Add(path.Key("friction_law"), "total", "must be incremental where a tendon has friction");
   }
+  if (!options.LocatesEvents() && !checker->GetScene().pins.empty())
+    checker->Add(path.Key("method"), "mpec", "must be branch in a scene with pins");
   if (const std::vector<Obstacle>& obstacles = checker->GetScene().obstacles;
       options.friction_law == FrictionLaw::kTotal &&
       std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) { return !obstacle.body.empty(); }))

@@ -168,6 +168,36 @@ class PieceElement : public Element {
   std::vector<LocalDof> dofs_;
 };
 
+// W = k (theta_1 - theta_0 - angle)^2 / 2 of the rotations of two nodes: the spring of a pin.
+class RotationalSpring : public Element {
+ public:
+  RotationalSpring(double stiffness, double angle)
+      : stiffness_(stiffness), angle_(angle), dofs_({{0, Field::kRotation, 0}, {1, Field::kRotation, 0}}) {}
+
+  const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  bool Linear() const override { return true; }
+  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+    return 0.5 * stiffness_ * Turn(x) * Turn(x);
+  }
+  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
+    force[1] = stiffness_ * Turn(x);
+    force[0] = -force[1];
+  }
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
+    tangent << stiffness_, -stiffness_, -stiffness_, stiffness_;
+  }
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>&, const Eigen::Ref<const Eigen::VectorXd>&,
+                         Eigen::Ref<Eigen::MatrixXd> derivative) const override {
+    derivative.setZero();
+  }
+
+ private:
+  double Turn(const Eigen::Ref<const Eigen::VectorXd>& x) const { return x[1] - x[0] - angle_; }
+
+  double stiffness_, angle_;
+  std::vector<LocalDof> dofs_;
+};
+
 // Places of the nodes of an element in the reference shape.
 Eigen::VectorXd PositionsOf(const std::vector<int>& nodes, const std::vector<double>& reference) {
   Eigen::VectorXd positions(2 * static_cast<Eigen::Index>(nodes.size()));
@@ -289,6 +319,12 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
     for (const auto& part : parts) {
       if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Solid>) {
         for (PlacedElement& own : MakeSolidElements(part, scene, index, reference)) elements.push_back(std::move(own));
+      } else if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Pin>) {
+        if (part.stiffness == 0.0) continue;
+        std::vector<int> nodes;
+        for (const std::string& name : part.nodes)
+          nodes.push_back(static_cast<int>(index.Node(TurnsWith(scene.nodes[index.Node(name)]))));
+        elements.push_back({std::make_unique<RotationalSpring>(part.stiffness, part.angle), std::move(nodes)});
       } else {
         if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Bar>)
           if (part.sense != BarSense::kBoth && bars == OneSided::kLaws) continue;

@@ -55,6 +55,7 @@ void PointChecks::CheckInner(const Increment& before, const Increment& increment
   at.positions = increment.inner.positions;
   at.rotations = increment.inner.rotations;
   at.contacts = increment.inner.contacts;
+  at.pins = increment.inner.pins;
   at.bars = increment.bars;
   at.solve.exact = true;
   CheckState(before, at, true, stage_.check.Check(StateOf(before), StateOf(at)));
@@ -69,6 +70,7 @@ void PointChecks::CheckState(const Increment& before, const Increment& at, bool 
   const double tolerance = at.solve.exact ? kExact : kRegularised;
   findings_.Bound("equilibrium residual", residuals.equilibrium, tolerance);
   findings_.Bound("penetration", residuals.penetration, tolerance);
+  if (!at.pins.empty()) findings_.Bound("distance of the nodes of a pin", residuals.support, tolerance);
   findings_.Bound("tensile_reaction", residuals.tensile_reaction, tolerance);
   findings_.Bound("gap and reaction are both positive", residuals.complementarity, tolerance);
   findings_.Bound("reaction outside of the friction cone", residuals.cone, tolerance);
@@ -169,12 +171,14 @@ void PointChecks::CheckRecorded(const Increment& increment, const Residuals& res
   same("cone residual", increment.residuals.cone, residuals.cone);
   same("support residual", increment.residuals.support, residuals.support);
   if (with_law) same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
-  double given = 0.0;  // to contacts that give way
+  double given = 0.0;  // to contacts and pins that give way
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
     const ContactRecord& contact = increment.contacts[i];
     const double rt = contact.state == ContactState::kStick ? contact.rt : 0.0;
     given += 0.5 * stage_.check.Give(i) * (contact.rn * contact.rn + rt * rt);
   }
+  for (std::size_t i = 0; i < increment.pins.size(); ++i)
+    given += 0.5 * stage_.check.GiveOfPin(i) * (std::pow(increment.pins[i].rx, 2) + std::pow(increment.pins[i].ry, 2));
   same("scaled strain energy", increment.strain_energy / stage_.Energy(),
        (stage_.check.StrainEnergy(increment.positions, increment.rotations) + given) / stage_.Energy(),
        std::numeric_limits<double>::epsilon() * stage_.stiffest);
@@ -210,6 +214,15 @@ void PointChecks::CheckForces(const Increment& increment) {
     same_record("support", i, increment.supports[i], forces.supports[i], 2, force, of_contacts);
   for (std::size_t i = 0; i < forces.boundaries.size(); ++i)
     same_record("boundary", i, increment.boundaries[i], forces.boundaries[i], 2, force, of_contacts);
+  for (std::size_t i = 0; i < increment.pins.size(); ++i) {
+    const Pin& pin = stage_.scene.pins[i];
+    const auto turn = [&](const std::string& node) {
+      const Node& at = stage_.scene.nodes[stage_.index.Node(node)];
+      return pin.stiffness > 0.0 ? increment.rotations[stage_.index.Node(TurnsWith(at))] : 0.0;
+    };
+    const double moment = pin.stiffness * (turn(pin.nodes[1]) - turn(pin.nodes[0]) - pin.angle);
+    same("rm", "pin", i, increment.pins[i].rm, moment, force * length, rounding);
+  }
   if (increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty()) return;
   const CheckedAnswers anew = stage_.check.Answers(state);
   for (std::size_t i = 0; i < increment.sections.size(); ++i)

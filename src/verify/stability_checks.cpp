@@ -35,6 +35,7 @@ StabilityChecks::StabilityChecks(const VerifiedStage& stage, Findings* findings,
 }
 
 std::optional<std::vector<std::size_t>> StabilityChecks::FreeComponents(const Increment& increment) const {
+  if (!stage_.scene.pins.empty()) return std::nullopt;
   const std::vector<Node>& nodes = stage_.scene.nodes;
   std::vector<bool> pinned(nodes.size());
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {

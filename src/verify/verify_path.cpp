@@ -30,7 +30,8 @@ bool AllFinite(const Increment& increment) {
   for (const double value : {increment.arc_length, increment.dissipation, increment.strain_energy,
                              increment.external_work, increment.jump.energy_released})
     finite = finite && std::isfinite(value);
-  for (const std::vector<Resultant>* const forces : {&increment.supports, &increment.boundaries})
+  for (const std::vector<Resultant>* const forces :
+       {&increment.supports, &increment.boundaries, &increment.pins, &increment.inner.pins})
     for (const Resultant& of : *forces)
       finite = finite && std::isfinite(of.rx) && std::isfinite(of.ry) && std::isfinite(of.rm);
   return finite;

@@ -1,4 +1,4 @@
-// Contacts and strings at places that bodies and obstacles move.
+// Contacts, strings and pins at places that bodies and obstacles move.
 #include "contact_path/structure/place.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/geometry/point_curves.h"
+#include "contact_path/law/pin_joint.h"
 #include "contact_path/law/slack_bar.h"
 #include "support/derivative_checker.h"
 #include "support/points.h"
@@ -21,7 +22,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 // Points of bodies seen by what is at rest, by an obstacle that moves, and by one that another body carries; strings
-// between all of them, and circles about them that roll.
+// and pins between all of them, and circles about them that roll.
 TEST(MovingPlace, GivesLawsTheirDerivatives) {
   const MovingFrame body = {{Coordinate{2}, Coordinate{3}}, {4}, Vector2d::Zero(), {0.3, 0.1}},
                     other = {{Coordinate{0}, Coordinate{-1, 0.4, 0.2}}, {1}, Vector2d::Zero(), {-0.2, 0.5}};
@@ -40,6 +41,8 @@ TEST(MovingPlace, GivesLawsTheirDerivatives) {
                     third = MovingPlace::Between(to, node);
   for (const std::vector<MovingPlace>& spans : {std::vector{first}, {second}, {first, second, third}})
     laws.push_back(std::make_unique<SlackBar>(spans, 1.3, 0.4, StrainMeasure::kBiot, BarSense::kTension));
+  for (const MovingPlace& apart : {first, second, third})
+    laws.push_back(std::make_unique<PinJoint>(apart, Vector2d(0.2, -0.1), 0.0));
   Random random(3);
   VectorXd x(8);  // u, s
   x << 0.3, 0.4, 0.2, 1.1, -0.5, 0.9, 1.4, 0.3;

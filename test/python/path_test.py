@@ -172,6 +172,30 @@ class PathTest(ProgramTest):
         self.assertNotIn('superelement', legends)
         path.to_vtk(self.path('vtk'))
 
+    def test_pins(self):
+        """A lever on a spring, held at its end by a string: its forces follow the columns, and what elements bear needs them."""
+        import matplotlib
+        matplotlib.use('Agg')
+        scene = cp.Scene('lever on a spring')
+        scene.body('ground', fixed_x=True, fixed_y=True, fixed_rotation=True)
+        scene.body('lever', x=1.0)
+        scene.node('axle', body='lever')
+        scene.node('end', x=2.0, body='lever')
+        scene.node('wall', x=2.0, y=-1.0, fixed_x=True, fixed_y=True)
+        scene.bar(['end', 'wall'], EA=1.0)
+        scene.pin(['axle', 'ground'], stiffness=0.5)
+        scene.load(body='lever', fy=1.0)
+        path = cp.trace(scene, stop=[{'quantity': 'lever.rotation', 'when': '>', 'value': 0.5}])
+        self.assertTrue(path.success)
+        self.assertLess(path.columns.index('rm_ground'), path.columns.index('rx_pin1'))
+        np.testing.assert_allclose(path['rm_pin1'], -0.5 * path['rotation_lever'], atol=1e-12)
+        for axis in 'xy':
+            np.testing.assert_allclose(path['r%s_pin1' % axis], path['r%s_ground' % axis], atol=1e-12)
+        N = path.response('sections')['N_bar1']
+        np.testing.assert_allclose(N, np.hypot(path['x_end'] - 2.0, path['y_end'] + 1.0) - 1.0, atol=1e-12)
+        path.plot(shapes=True, file=self.path('s.png'))
+        path.to_vtk(self.path('vtk'))
+
     def test_bars_that_are_slack(self):
         import matplotlib
         matplotlib.use('Agg')

@@ -319,9 +319,9 @@ TEST(ReadSceneTest, RulesOnListsHaveTheLineOfTheList) {
       {"# empty\noptions:\n", "f:2: scene.nodes = []: at least one node is needed"},
       {"scene:\n  name: n\n\n  nodes: []\n", "f:4: scene.nodes = []: at least one node is needed"},
       {"scene:\n" + nodes + loads,
-       "f:1: scene.bars = []: at least one bar, superelement, beam, solid or tendon is needed"},
+       "f:1: scene.bars = []: at least one bar, superelement, beam, solid, tendon or pin is needed"},
       {"scene:\n" + nodes + "  bars: []\n" + loads,
-       "f:5: scene.bars = []: at least one bar, superelement, beam, solid or tendon is needed"},
+       "f:5: scene.bars = []: at least one bar, superelement, beam, solid, tendon or pin is needed"},
       {"scene:\n" + nodes + bars,
        "f:1: scene.loads = []: a load that is not constant must act on a free component, or a support or an obstacle "
        "must move"},

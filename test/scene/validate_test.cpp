@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, ValidateTest, testing::ValuesIn(kNodeRules), Nam
 
 const BrokenRule kElementRules[] = {
     {"NoElements", [](auto& r) { r.scene.bars.clear(), r.scene.superelements.clear(); }, "scene.bars", "[]",
-     "at least one bar, superelement, beam, solid or tendon"},
+     "at least one bar, superelement, beam, solid, tendon or pin"},
     {"BarOfOneNode", [](auto& r) { r.scene.bars[0].nodes = {"b"}; }, "scene.bars[0].nodes", "[b]", "must name two"},
     {"BarOfThreeNodes",
      [](auto& r) {

@@ -12,6 +12,7 @@ UNITS = {
     'bodies': {'x': LENGTH, 'y': LENGTH},
     'tendons': {'EA': FORCE, 'rest_length': LENGTH},
     'bars': {'EA': FORCE, 'rest_length': LENGTH},
+    'pins': {'stiffness': (1, 1)},
     'superelements': {'stiffness': (-1, 1), 'rest_positions': LENGTH},
     'beams': {'EA': FORCE, 'EI': (2, 1), 'GA': FORCE},
     'materials': {'E': STRESS, 'lambda': STRESS, 'mu': STRESS, 'a': STRESS},
@@ -28,7 +29,7 @@ VECTORS = {'loads': [('fx', 'fy'), ('px', 'py'), ('bx', 'by')], 'obstacles': [('
            'obstacle_motions': [('dx', 'dy')]}
 PLACES = {'nodes': ('x', 'y'), 'bodies': ('x', 'y'), 'obstacles': ('px', 'py'), 'obstacle_motions': ('about_x', 'about_y')}
 # What a mirror image turns the other way round.
-ROTATIONS = {'loads': 'moment', 'support_motions': 'rotation', 'obstacle_motions': 'turn', 'beams': 'angle'}
+ROTATIONS = {'loads': 'moment', 'support_motions': 'rotation', 'obstacle_motions': 'turn', 'beams': 'angle', 'pins': 'angle'}
 
 ROUNDED = {'bars': ('EA',), 'beams': ('EA', 'EI', 'GA'), 'materials': ('E', 'lambda', 'mu'), 'loads': tuple(UNITS['loads'])}
 # Lists whose order says nothing.

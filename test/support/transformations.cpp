@@ -162,6 +162,7 @@ TracedPath UndoUnits(TracedPath path, double length, double force) {
       contact.rn /= force;
       contact.rt /= force;
     }
+    for (Resultant& pin : increment.pins) pin = {pin.rx / force, pin.ry / force, pin.rm / (force * length)};
     for (double* work : {&increment.dissipation, &increment.strain_energy, &increment.external_work})
       *work /= length * force;
   }
@@ -180,8 +181,10 @@ TraceRequest Rotate(TraceRequest request, double angle) {
 
 TracedPath UndoRotation(TracedPath path, double angle) {
   const double cosine = std::cos(angle), sine = std::sin(-angle);
-  for (Increment& increment : path.increments)
+  for (Increment& increment : path.increments) {
     ForEachPoint(&increment.positions, [=](double* x, double* y) { Turn(cosine, sine, x, y); });
+    for (Resultant& pin : increment.pins) Turn(cosine, sine, &pin.rx, &pin.ry);
+  }
   return path;
 }
 
@@ -197,6 +200,7 @@ TraceRequest Mirror(TraceRequest request) {
     ForEachPoint(&obstacle.points, [](double* y, double* x) { std::swap(*x, *y); });
   }
   for (Beam& beam : request.scene.beams) beam.angle = -beam.angle;
+  for (Pin& pin : request.scene.pins) pin.angle = -pin.angle;
   for (Solid& solid : request.scene.solids) TurnElementsRound(&solid);
   for (BoundarySurface& surface : request.scene.surfaces) std::reverse(surface.nodes.begin(), surface.nodes.end());
   for (StopCriterion& criterion : request.options.stop) {
@@ -213,6 +217,7 @@ TracedPath UndoMirror(TracedPath path) {
     ForEachPoint(&increment.positions, [](double* x, double*) { *x = -*x; });
     for (double& rotation : increment.rotations) rotation = -rotation;
     for (ContactRecord& contact : increment.contacts) FlipTangent(&contact);
+    for (Resultant& pin : increment.pins) pin = {-pin.rx, pin.ry, -pin.rm};
   }
   return path;
 }
@@ -223,6 +228,7 @@ TraceRequest Reverse(TraceRequest request) {
   std::reverse(scene.bodies.begin(), scene.bodies.end());
   std::reverse(scene.bars.begin(), scene.bars.end());
   std::reverse(scene.tendons.begin(), scene.tendons.end());
+  std::reverse(scene.pins.begin(), scene.pins.end());
   std::reverse(scene.superelements.begin(), scene.superelements.end());
   std::reverse(scene.beams.begin(), scene.beams.end());
   std::reverse(scene.materials.begin(), scene.materials.end());
@@ -242,6 +248,10 @@ TraceRequest Reverse(TraceRequest request) {
     for (std::string& node : surface.nodes) node = FromOtherEnd(node, scene.beams);
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
   for (Tendon& tendon : scene.tendons) std::reverse(tendon.nodes.begin(), tendon.nodes.end());
+  for (Pin& pin : scene.pins) {
+    std::reverse(pin.nodes.begin(), pin.nodes.end());
+    pin.angle = -pin.angle;
+  }
   for (Beam& beam : scene.beams) {
     std::reverse(beam.nodes.begin(), beam.nodes.end());
     std::reverse(beam.hinged.begin(), beam.hinged.end());
@@ -272,6 +282,8 @@ TracedPath UndoReversal(TracedPath path) {
     if (!increment.rotations.empty()) ReverseNodes(scene, 1, &increment.rotations);
     std::reverse(increment.contacts.begin(), increment.contacts.end());
     std::reverse(increment.bars.begin(), increment.bars.end());
+    std::reverse(increment.pins.begin(), increment.pins.end());
+    for (Resultant& pin : increment.pins) pin = {-pin.rx, -pin.ry, -pin.rm};
   }
   return path;
 }
@@ -300,6 +312,12 @@ void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double
       EXPECT_NEAR(a.contacts[k].gap, e.contacts[k].gap, length) << k;
       EXPECT_NEAR(a.contacts[k].rn, e.contacts[k].rn, force) << k;
       EXPECT_NEAR(a.contacts[k].rt, e.contacts[k].rt, force) << k;
+    }
+    ASSERT_EQ(a.pins.size(), e.pins.size());
+    for (std::size_t k = 0; k < e.pins.size(); ++k) {
+      EXPECT_NEAR(a.pins[k].rx, e.pins[k].rx, force) << k;
+      EXPECT_NEAR(a.pins[k].ry, e.pins[k].ry, force) << k;
+      EXPECT_NEAR(a.pins[k].rm, e.pins[k].rm, energy) << k;
     }
     EXPECT_NEAR(a.dissipation, e.dissipation, energy);
     EXPECT_NEAR(a.strain_energy, e.strain_energy, energy);

@@ -21,8 +21,8 @@ TracedPath UndoRotation(TracedPath path, double angle);
 TraceRequest Mirror(TraceRequest request);
 TracedPath UndoMirror(TracedPath path);
 
-// All lists backwards, and the ends of bars and beams, the nodes of superelements and the elements of solids too; each
-// of those begins at its next corner.
+// All lists backwards, and the ends of bars, beams and pins, the nodes of superelements and the elements of solids too;
+// each of those begins at its next corner.
 TraceRequest Reverse(TraceRequest request);
 TracedPath UndoReversal(TracedPath path);
 

@@ -29,7 +29,9 @@ struct Residuals {
   // no slip inside the cone, slip opposed to r_t on its boundary. By the total law, d is the slip since the start of
   // the program.
   double friction_law = 0.0;
-  double support = 0.0;  // max distance of a fixed component from where it has to be / L, of rotations [rad]
+  // max distance of a fixed component from where it has to be, or of the nodes of a pin from each other but for what
+  // the pin gives way, / L, of rotations [rad].
+  double support = 0.0;
 
   static constexpr std::array<double Residuals::*, 7> kAll = {
       &Residuals::equilibrium, &Residuals::penetration,  &Residuals::tensile_reaction, &Residuals::complementarity,
@@ -48,6 +50,7 @@ struct CheckedState {
   std::vector<double> rotations;  // by node, since the reference shape [rad]; empty in a scene without beams
   std::vector<double> rn;
   std::vector<double> rt;
+  std::vector<double> pins;  // of each pin the force x, y on its first node by the second [force]
 };
 
 // What holds the structure: x, y [force] and moment [force length], on the structure.
@@ -109,8 +112,10 @@ class ResidualCheck {
   double SlidingForce(std::size_t contact, const CheckedState& state) const;
   // What forces may be off by where curvatures jump below contacts that give way [force].
   double Uncertain(const CheckedState& state) const;
-  // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body.
+  // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body. Of a pin; 0 where
+  // it is in no loop.
   double Give(std::size_t contact) const;
+  double GiveOfPin(std::size_t pin) const;
   // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws
   // std::invalid_argument where the configuration has no slip_origins.
   double TotalSlip(std::size_t contact, const CheckedState& state) const;

@@ -75,7 +75,8 @@ struct Ray {
 // the motion from which the port's motion is measured; at the start of an arc it is a function of the place, and 0
 // where the port gives way by a compliance of its own. The engine relies on this: one state is idle; port 0 is a gap,
 // with a force >= 0, without a reference but that of ReferenceOf(), and held wherever a port follows; it does not
-// dissipate. Ratios and compliances are constants of a state.
+// dissipate. Ratios and compliances are constants of a state. A law of one state that is not idle has no limits, holds
+// for ever, with forces of any sign, and has no memory.
 // q stands for (dofs, s) throughout: m + 1 entries with m = Dofs(piece).size() <= kMostLawDofs, the load factor last. u
 // may have more entries than dofs.
 class Law {
@@ -88,6 +89,8 @@ class Law {
   int NumStates() const { return static_cast<int>(states_.size()); }
   // A state in which all ports are held.
   int AllHeld() const;
+  // Whether it can let go: a state is idle.
+  bool CanBeIdle() const;
   // Of a limit that the state has.
   const LimitRule& Rule(int state, int id) const { return *In(state).Find(id); }
 

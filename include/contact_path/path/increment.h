@@ -87,12 +87,13 @@ struct InnerState {
   std::vector<double> positions;  // as those of the increment
   std::vector<double> rotations;
   std::vector<ContactRecord> contacts;
+  std::vector<Resultant> pins;
 };
 
 template <typename P>
 constexpr auto Fields(Of<InnerState>) {
   return std::tuple(Member("load_factor", &P::load_factor), Member("positions", &P::positions),
-                    Member("rotations", &P::rotations), Member("contacts", &P::contacts));
+                    Member("rotations", &P::rotations), Member("contacts", &P::contacts), Member("pins", &P::pins));
 }
 
 // What it took to compute the increment. Counts are of the last problem solved for it; iterations and time are sums.
@@ -192,7 +193,8 @@ struct Increment {
   EventRecord event;
   StabilityRecord stability;
   JumpRecord jump;
-  std::vector<BarState> bars;  // of OneSidedBars() of the scene, on the arc of the path that ends here
+  std::vector<BarState> bars;   // of OneSidedBars() of the scene, on the arc of the path that ends here
+  std::vector<Resultant> pins;  // force on the first node by the second, moment of the spring on it; in scene order
 };
 
 // All fields except positions, rotations, contacts, residuals, stability and jump: a message has them in another form,
@@ -205,7 +207,8 @@ constexpr auto Fields(Of<Increment>) {
                     Member("external_work", &P::external_work), Member("supports", &P::supports),
                     Member("boundaries", &P::boundaries), Member("sections", &P::sections),
                     Member("stresses", &P::stresses), Member("pressures", &P::pressures), Member("widths", &P::widths),
-                    Member("inner", &P::inner), Member("event", &P::event), Member("bars", &P::bars));
+                    Member("inner", &P::inner), Member("event", &P::event), Member("bars", &P::bars),
+                    Member("pins", &P::pins));
 }
 
 // What check/ looks at of an increment that has its state.

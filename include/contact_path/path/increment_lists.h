@@ -34,7 +34,8 @@ class IncrementLists {
   bool Fit(const Increment& increment) const;
 
  private:
-  std::size_t nodes_, rotations_, contacts_, supports_, boundaries_, bars_, sections_, stresses_, pressures_, widths_;
+  std::size_t nodes_, rotations_, contacts_, supports_, boundaries_, bars_, pins_, sections_, stresses_, pressures_,
+      widths_;
 };
 
 }  // namespace contact_path

@@ -8,6 +8,7 @@
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/law/laws.h"
+#include "contact_path/law/pin_joint.h"
 #include "contact_path/law/slack_bar.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/response/contact_pressure.h"
@@ -61,6 +62,10 @@ struct Model {
   // nothing moves.
   std::vector<double> ComponentsOf(const Eigen::VectorXd& u, const Eigen::VectorXd& motion) const;
 
+  // Places among the laws.
+  std::size_t LawOfBar(std::size_t bar) const { return contacts.size() + bar; }
+  std::size_t LawOfPin(std::size_t pin) const { return LawOfBar(bars.size()) + pin; }
+
   // Of the bars among the modes of all laws.
   std::vector<BarState> BarStatesIn(const Modes& modes) const;
 
@@ -76,7 +81,8 @@ struct Model {
   const Structure structure;                                // of the scaled scene
   const ContactPairs contacts;                              // of the scaled scene
   const std::vector<std::unique_ptr<const SlackBar>> bars;  // that bear in one sense alone, of the scaled scene
-  const Laws laws;                                          // the contacts, then these bars
+  const std::vector<std::unique_ptr<const PinJoint>> pins;  // of the scaled scene
+  const Laws laws;                                          // the contacts, then these bars, then the pins
   const ReactionProblem reactions;
   const ResidualCheck check;  // of the scene
 

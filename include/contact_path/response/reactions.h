@@ -3,11 +3,13 @@
 #define CONTACT_PATH_RESPONSE_REACTIONS_H_
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/law/path_point.h"
+#include "contact_path/law/pin_joint.h"
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
@@ -51,9 +53,10 @@ class ReactionProblem {
 
   Scaling scaling_;
   Structure released_;
-  ContactPairs contacts_;           // of the structure without supports
-  std::vector<std::size_t> nodes_;  // by contact
-  std::vector<double> radii_;       // by contact: of a circle that rolls, else 0
+  ContactPairs contacts_;                              // of the structure without supports
+  std::vector<std::unique_ptr<const PinJoint>> pins_;  // of that structure, too
+  std::vector<std::size_t> nodes_;                     // by contact
+  std::vector<double> radii_;                          // by contact: of a circle that rolls, else 0
   std::vector<SupportedNode> supports_;
   std::vector<TouchedBoundary> boundaries_;
   std::vector<std::size_t> boundary_of_;  // by contact: into boundaries_

@@ -17,6 +17,7 @@ std::string BarName(const Bar& bar, std::size_t place);
 std::string SolidName(const Solid& solid, std::size_t place);
 
 std::string TendonName(const Tendon& tendon, std::size_t place);
+std::string PinName(const Pin& pin, std::size_t place);
 
 // What bears in one sense alone: a bar, or a tendon, whose length is that from node to node.
 struct OneSidedBar {
@@ -49,6 +50,13 @@ bool HasRotations(const Scene& scene);
 // In an expanded scene a body is a node of its name whose `body` is that name, too.
 inline bool IsBody(const Node& node) { return !node.body.empty() && node.body == node.name; }
 inline bool IsAttached(const Node& node) { return !node.body.empty() && node.body != node.name; }
+// The node whose rotation is that of what holds the node: its body, or itself.
+inline const std::string& TurnsWith(const Node& node) { return node.body.empty() ? node.name : node.body; }
+
+// By pin of an expanded scene: whether it is part of a loop of pins, from body or node to body or node, or from one
+// thing that a support or a contact may hold to another. Only there may equilibrium not tell the forces of pins. Names
+// that the scene does not have count for nothing.
+std::vector<bool> PinsInLoops(const Scene& scene);
 
 // The circle of a contact that rolls; null for others, and where the scene does not have its obstacle.
 const Obstacle* RollingCircle(const ContactCandidate& contact, const Scene& scene);

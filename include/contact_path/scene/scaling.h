@@ -22,6 +22,9 @@ struct Scaling {
 // Whether length and force follow from the elements alone: a bar, a beam or a solid gives both.
 bool HasForceScale(const Scene& scene);
 
+// Twice the largest distance of a node from the mean of all nodes [length]. The scene must have a node.
+double ExtentOfNodes(const Scene& scene);
+
 // `scene` must be sound (validate.h). index: of the scene, here and below.
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index);
 inline Scaling CharacteristicScales(const Scene& scene) { return CharacteristicScales(scene, SceneIndex(scene)); }

@@ -146,6 +146,22 @@ constexpr auto Fields(Of<Tendon>) {
                     Member("friction", &P::friction).Within(Range::kZeroOrPositive));
 }
 
+// Two nodes that stay together, and turn freely against each other or by a rotational spring between what turns with
+// them, a body or the end of a beam: energy k (theta_2 - theta_1 - angle)^2 / 2 of their rotations since the start.
+struct Pin {
+  std::vector<std::string> nodes;  // two names, at the same point at the start
+  double stiffness = 0.0;          // k [force length/rad]; 0 = no spring
+  double angle = 0.0;              // relative turn from the first node to the second without moment [rad]
+  std::string name = {};           // of its columns; empty = "pin<place in the list, from 1>"
+};
+
+template <typename P>
+constexpr auto Fields(Of<Pin>) {
+  return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                    Member("stiffness", &P::stiffness).In(units::kMoment).Within(Range::kZeroOrPositive),
+                    Member("angle", &P::angle), Member("name", &P::name));
+}
+
 // Linear elastic part: force = K (x - X), both ordered x0, y0, x1, y1, ... over `nodes`.
 struct Superelement {
   std::vector<std::string> nodes;           // n names
@@ -362,6 +378,7 @@ struct Scene {
   std::vector<ObstacleMotion> obstacle_motions;
   std::vector<RigidBody> bodies;
   std::vector<Tendon> tendons;
+  std::vector<Pin> pins;
 };
 
 template <typename P>
@@ -372,7 +389,7 @@ constexpr auto Fields(Of<Scene>) {
                     Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
                     Member("contacts", &P::contacts), Member("supports", &P::supports),
                     Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
-                    Member("bodies", &P::bodies), Member("tendons", &P::tendons));
+                    Member("bodies", &P::bodies), Member("tendons", &P::tendons), Member("pins", &P::pins));
 }
 
 // Calls visit(name, list) for each list of elements of a scene, parts that join `nodes` and hold them by forces, in the
@@ -384,6 +401,7 @@ void ForEachElementList(const Scene& scene, Visit&& visit) {
   visit("beams", scene.beams);
   visit("solids", scene.solids);
   visit("tendons", scene.tendons);
+  visit("pins", scene.pins);
 }
 
 // A part of a load program. Its load factor goes from 0 to `target`; then the stage leaves its loads and motions on,

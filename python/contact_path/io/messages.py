@@ -65,7 +65,7 @@ def columns_of(traced: Mapping[str, Any], increments: Sequence[Any], options: Ma
         lists = [getattr(message, name, ()) for message in increments]
         if name in ('supports', 'boundaries') or any(lists):
             table.update(list_columns(own, lists, getattr))
-        if name == 'boundaries':
+        if name == 'pins':
             if has_verdicts:
                 table.update((field, column(field, kind)) for field, kind in STABILITY.items())
             if options.get('machine_stiffness', 0.0) > 0.0:

@@ -17,7 +17,7 @@ from contact_path.structure.surfaces import SurfaceCurve
 Increment = Mapping[str, Any]  # an increment, as Path.increment gives it
 
 # Lists whose entries have nodes and are no elements, or elements with a look of their own.
-DRAWN_APART = ('bars', 'superelements', 'beams', 'solids', 'groups', 'surfaces', 'tendons')
+DRAWN_APART = ('bars', 'superelements', 'beams', 'solids', 'groups', 'surfaces', 'tendons', 'pins')
 
 
 class Stage(NamedTuple):

@@ -21,6 +21,7 @@ def parts_of(traced: Mapping[str, Any]) -> Dict[str, Parts]:
     taken = {name for name, _ in supports}
     return {'supports': supports,
             'boundaries': [(of['name'], [] if of['name'] in taken else REACTIONS) for of in names['boundaries']],
+            'pins': [(of['name'], REACTIONS if of['has_spring'] else REACTIONS[:2]) for of in names.get('pins', ())],
             'sections': [(name, SECTIONS if bars <= i < tendons else SECTIONS[:1]) for i, name in enumerate(names['sections'])],
             'stresses': [(name, STRESSES) for name in names['elements']],
             'pressures': [(name, PRESSURES) for name in names['contacts']],

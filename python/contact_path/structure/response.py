@@ -96,7 +96,9 @@ def increments(path: Increments, traced: Mapping[str, Any]) -> List[Dict[str, An
     places = [table[axis + node] for node in nodes for axis in ('x_', 'y_')]
     states = [[table['%s_%s' % (field, name)] for field in ('rn', 'rt', 'state')] for name in contacts]
     bars = [table['state_' + name] for name in traced['names'].get('bars', ())]
+    pins = [(table['rx_' + of['name']], table['ry_' + of['name']]) for of in traced['names'].get('pins', ())]
     stages = table.get('stage', [0] * len(rows))
     return [{'stage': stages[i], 'load_factor': table['load_factor'][i], 'positions': [values[i] for values in places],
              'rotations': [values[i] for values in turned], 'bars': [values[i] for values in bars],
+             'pins': [{'rx': rx[i], 'ry': ry[i]} for rx, ry in pins],
              'contacts': [{'rn': rn[i], 'rt': rt[i], 'state': state[i]} for rn, rt, state in states]} for i in range(len(rows))]

@@ -1,0 +1,516 @@
+// Pins in scenes: linkages, arches and springs in closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact_path/path/earlier_trace.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/expand.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path::pins_test {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kExact = 1e-10;
+constexpr double kGives = 2e-7;  // pins in loops give way by 1e-8 of their forces
+constexpr double kSame = 1e-9;
+
+Node At(const std::string& name, double x, double y, const std::string& body) {
+  return {name, x, y, false, false, false, body};
+}
+
+Load On(const std::string& body, double fx, double fy, bool constant = false) {
+  Load load;
+  load.body = body;
+  load.fx = fx;
+  load.fy = fy;
+  load.constant = constant;
+  return load;
+}
+
+RigidBody Ground(double x, double y) { return {"ground", x, y, true, true, true}; }
+
+// A bob of the weight W on a rod of the length l hangs at the angle atan(F / W) under a push F.
+TEST(Pins, APendulumHangsInTheDirectionOfItsForce) {
+  for (const double length : {1e-3, 1.0, 1e3})
+    for (const double weight : {1.0, 1e6}) {
+      SCOPED_TRACE(testing::Message() << "length " << length << ", weight " << weight);
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "pendulum";
+      scene.bodies = {{"bob", 0.0, -length}};
+      scene.nodes = {{"hook", 0.0, 0.0, true, true}, At("eye", 0.0, 0.0, "bob")};
+      scene.pins = {{{"eye", "hook"}}};
+      scene.loads = {On("bob", 0.0, -weight, true), On("bob", weight, 0.0)};
+      request.options.stop = {{"load_factor", ">", 3.0}};
+      const TracedPath path = TraceIncrements(request);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      for (const Increment& increment : path.increments) {
+        const double s = increment.load_factor;
+        EXPECT_NEAR(increment.rotations.back(), std::atan(s), kExact);
+        EXPECT_NEAR(increment.pins[0].rx / weight, -s, kExact);
+        EXPECT_NEAR(increment.pins[0].ry / weight, 1.0, kExact);
+        EXPECT_NEAR(increment.supports[0].rx / weight, -s, kExact);
+        EXPECT_NEAR(increment.positions[2] / length, 0.0, kExact);
+        EXPECT_EQ(increment.stability.stability, Verdict::kStable);
+      }
+      ExpectNoFindings(path);
+    }
+}
+
+// Two rods of the lengths 1 and 0.8 with weights in the middle of the first and at the end of the second.
+TraceRequest DoublePendulum() {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "double_pendulum";
+  scene.bodies = {{"upper", 0.0, -0.5}, {"lower", 0.0, -1.8}};
+  scene.nodes = {{"hook", 0.0, 0.0, true, true},
+                 At("top", 0.0, 0.0, "upper"),
+                 At("above", 0.0, -1.0, "upper"),
+                 At("below", 0.0, -1.0, "lower")};
+  scene.pins = {{{"top", "hook"}}, {{"above", "below"}}};
+  scene.loads = {On("upper", 0.0, -1.0, true), On("lower", 0.0, -0.7, true), On("lower", 1.0, 0.0)};
+  request.options.stop = {{"load_factor", ">", 2.0}};
+  return request;
+}
+
+TEST(Pins, ADoublePendulum) {
+  const TracedPath path = TraceIncrements(DoublePendulum());
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Increment& increment : path.increments) {
+    const double s = increment.load_factor;
+    EXPECT_NEAR(increment.rotations[4], std::atan(s / 1.2), kExact);
+    EXPECT_NEAR(increment.rotations[5], std::atan(s / 0.7), kExact);
+    EXPECT_NEAR(increment.pins[0].rx, -s, kExact);
+    EXPECT_NEAR(increment.pins[0].ry, 1.7, kExact);
+    EXPECT_NEAR(increment.pins[1].rx, s, kExact);  // on the upper rod
+    EXPECT_NEAR(increment.pins[1].ry, -0.7, kExact);
+  }
+  ExpectNoFindings(path);
+}
+
+// By virtual work: s f . x' = k (phi - angle), with the coupler where it has to be for the turn phi of the crank.
+TEST(Pins, AFourBarLinkageWithASpring) {
+  for (const double angle : {0.0, 0.2}) {
+    SCOPED_TRACE(angle);
+    constexpr double kSpring = 0.7;
+    const Vector2d crank(0.0, 1.0), rocker(2.0, 0.0), joint(2.0, 1.2), middle(1.0, 1.1), force(1.0, -0.3);
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "four_bar";
+    scene.bodies = {{"crank", 0.0, 0.5}, {"coupler", middle.x(), middle.y()}, {"rocker", 2.0, 0.6}, Ground(1.0, 0.0)};
+    scene.nodes = {At("o", 0.0, 0.0, "ground"),  At("p", 2.0, 0.0, "ground"),   At("c0", 0.0, 0.0, "crank"),
+                   At("c1", 0.0, 1.0, "crank"),  At("k0", 0.0, 1.0, "coupler"), At("k1", 2.0, 1.2, "coupler"),
+                   At("r1", 2.0, 1.2, "rocker"), At("r0", 2.0, 0.0, "rocker")};
+    scene.pins = {{{"o", "c0"}, kSpring, angle, "drive"}, {{"c1", "k0"}}, {{"k1", "r1"}}, {{"r0", "p"}}};
+    scene.loads = {On("coupler", force.x(), force.y())};
+    request.options.stop = {{"crank.rotation", "<", -0.8}};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    EXPECT_NEAR(path.increments.front().rotations[8], angle, kGives);
+    const auto turned = [](double by, const Vector2d& v) {
+      return Vector2d(std::cos(by) * v.x() - std::sin(by) * v.y(), std::sin(by) * v.x() + std::cos(by) * v.y());
+    };
+    const auto across = [](const Vector2d& v) { return Vector2d(-v.y(), v.x()); };
+    for (const Increment& increment : path.increments) {
+      const double phi = increment.rotations[8];
+      const Vector2d c = turned(phi, crank);
+      double psi = increment.rotations[9];  // of the coupler: Newton's method on the length of the rocker
+      for (int i = 0; i < 20; ++i) {
+        const Vector2d r = c + turned(psi, joint - crank) - rocker;
+        psi -= 0.5 * (r.squaredNorm() - (joint - rocker).squaredNorm()) / r.dot(across(turned(psi, joint - crank)));
+      }
+      EXPECT_NEAR(increment.rotations[9], psi, kGives);
+      const Vector2d r = c + turned(psi, joint - crank) - rocker;
+      const double rate = -across(c).dot(r) / across(turned(psi, joint - crank)).dot(r);
+      const Vector2d motion = across(c) + rate * across(turned(psi, middle - crank));
+      EXPECT_NEAR(increment.load_factor * force.dot(motion), kSpring * (phi - angle), kGives);
+      EXPECT_NEAR(increment.pins[0].rm, kSpring * (phi - angle), kExact);
+      // The rocker bears along its axis alone.
+      const Vector2d on_rocker(increment.pins[3].rx, increment.pins[3].ry);
+      EXPECT_NEAR(on_rocker.dot(across(r)), 0.0, kGives);
+    }
+    ExpectNoFindings(path);
+  }
+}
+
+// Two bodies from (-2, 0) and (2, 0) to a crown at (0, 1): a weight P = s on the left one at x = -1, a push H = s / 2
+// on the right one at the height 0.5.
+TEST(Pins, AnArchOfThreeHinges) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "arch";
+  scene.bodies = {{"left", -1.0, 0.5}, {"right", 1.0, 0.5}};
+  scene.nodes = {{"a", -2.0, 0.0, true, true},         {"b", 2.0, 0.0, true, true},
+                 At("left_foot", -2.0, 0.0, "left"),   At("left_crown", 0.0, 1.0, "left"),
+                 At("right_crown", 0.0, 1.0, "right"), At("right_foot", 2.0, 0.0, "right")};
+  scene.pins = {{{"left_foot", "a"}}, {{"left_crown", "right_crown"}}, {{"right_foot", "b"}}};
+  scene.loads = {On("left", 0.0, -1.0), On("right", 0.5, 0.0)};
+  request.options.stop = {{"load_factor", ">", 1.0}};
+  for (const bool swapped : {false, true}) {
+    if (swapped)
+      for (Pin& pin : scene.pins) std::swap(pin.nodes[0], pin.nodes[1]);
+    const double sign = swapped ? -1.0 : 1.0;
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double P = increment.load_factor, H = 0.5 * P;
+      const double right = (P + 0.5 * H) / 4.0, thrust = -2.0 * right - 0.5 * H;
+      EXPECT_NEAR(sign * increment.pins[0].ry, P - right, kGives);
+      EXPECT_NEAR(sign * increment.pins[0].rx, -thrust - H, kGives);
+      EXPECT_NEAR(sign * increment.pins[1].ry, right, kGives);
+      EXPECT_NEAR(sign * increment.pins[1].rx, thrust + H, kGives);
+      EXPECT_NEAR(sign * increment.pins[2].ry, right, kGives);
+      EXPECT_NEAR(sign * increment.pins[2].rx, thrust, kGives);
+    }
+    ExpectNoFindings(path);
+  }
+}
+
+// Three equal links carry a platform: the least forces share its load equally, in any turn.
+TEST(Pins, LeastForcesWhereEquilibriumDoesNotTellThem) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "platform";
+  scene.bodies = {{"top", 1.0, 1.0}};
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = std::to_string(i);
+    const double x = i;
+    scene.bodies.push_back({"link" + name, x, 0.5});
+    scene.nodes.push_back({"ground" + name, x, 0.0, true, true});
+    scene.nodes.push_back(At("low" + name, x, 0.0, "link" + name));
+    scene.nodes.push_back(At("high" + name, x, 1.0, "link" + name));
+    scene.nodes.push_back(At("top" + name, x, 1.0, "top"));
+    scene.pins.push_back({{"low" + name, "ground" + name}});
+    scene.pins.push_back({{"high" + name, "top" + name}});
+  }
+  scene.loads = {On("top", 0.0, 1.0, true), On("top", 1.0, 0.0)};
+  request.options.stop = {{"load_factor", ">", 2.0}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Increment& increment : path.increments)
+    for (std::size_t k = 0; k < 6; k += 2) {
+      EXPECT_NEAR(increment.pins[k].rx, -increment.load_factor / 3.0, kGives);
+      EXPECT_NEAR(increment.pins[k].ry, -1.0 / 3.0, kGives);
+      EXPECT_NEAR(increment.pins[k + 1].rx, increment.load_factor / 3.0, kGives);
+    }
+  ExpectNoFindings(path);
+}
+
+// A shallow arch of two beams snaps through, its crown a hinge of a beam or a pin between two nodes.
+TEST(Pins, JoinBeamsAsAHingeDoes) {
+  TraceRequest hinged;
+  Scene& scene = hinged.scene;
+  scene.name = "hinged_arch";
+  scene.nodes = {{"a", 0.0, 0.0, true, true, true}, {"b", 2.0, 0.0, true, true, true}, {"m", 1.0, 0.2}};
+  scene.beams = {{"left", {"a", "m"}, 1e3, 1.0, 0.0, 8}, {"right", {"m", "b"}, 1e3, 1.0, 0.0, 8, 0.0, {true, false}}};
+  scene.loads = {{"m", 0.3, -1.0}};
+  hinged.options.stop = {{"m.y", "<", -0.3}};
+  hinged.options.max_increments = 3000;
+  TraceRequest pinned = hinged;
+  pinned.scene.nodes.push_back({"n", 1.0, 0.2});
+  pinned.scene.beams[1].nodes[0] = "n";
+  pinned.scene.beams[1].hinged.clear();
+  pinned.scene.pins = {{{"m", "n"}}};
+  const TracedPath path = TraceIncrements(pinned), expected = TraceIncrements(hinged);
+  ExpectNoFindings(path);
+  ExpectSameEvents(path, expected, kSame);
+  EXPECT_NEAR(path.increments.back().load_factor, expected.increments.back().load_factor, kSame);
+  const Increment& last = path.increments.back();
+  // The right support bears what the pin brings, less nothing: the right beam has no load.
+  EXPECT_NEAR(last.pins[0].rx, last.supports[1].rx, kSame);
+  EXPECT_NEAR(last.pins[0].ry, last.supports[1].ry, kSame);
+}
+
+// k (theta - angle) = M of a pawl, and a beam on a spring that M bends to a circle: M / k + M L / EI at its tip.
+TEST(Pins, SpringsTurnByTheirMoments) {
+  for (const double stiffness : {1e-3, 1.0, 1e4}) {
+    SCOPED_TRACE(stiffness);
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "pawl";
+    scene.bodies = {Ground(0.0, 0.0), {"pawl", 1.0, 0.0}};
+    scene.nodes = {At("axle", 0.0, 0.0, "pawl")};
+    scene.pins = {{{"ground", "axle"}, stiffness, -0.3}};
+    Load moment;
+    moment.body = "pawl";
+    moment.moment = stiffness;
+    scene.loads = {moment};
+    request.options.stop = {{"pawl.rotation", ">", 3.0}};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      EXPECT_NEAR(increment.rotations.back(), increment.load_factor - 0.3, kExact);
+      EXPECT_NEAR(increment.pins[0].rm / stiffness, increment.load_factor, kExact);
+      EXPECT_NEAR(increment.supports[0].rm / stiffness, -increment.load_factor, kExact);
+    }
+    ExpectNoFindings(path);
+  }
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "beam_on_a_spring";
+  scene.bodies = {Ground(0.0, 0.0)};
+  scene.nodes = {{"foot", 0.0, 0.0}, {"tip", 0.0, 2.0}};
+  scene.beams = {{"rod", {"foot", "tip"}, 1e3, 0.5, 0.0, 8}};
+  scene.pins = {{{"foot", "ground"}, 0.25}};
+  Load moment;
+  moment.node = "tip";
+  moment.moment = 0.1;
+  scene.loads = {moment};
+  request.options.stop = {{"load_factor", ">", 3.0}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Increment& increment : path.increments) {
+    const double M = 0.1 * increment.load_factor;
+    EXPECT_NEAR(increment.rotations[0], M / 0.25, kExact);
+    EXPECT_NEAR(increment.rotations[1], M / 0.25 + M * 2.0 / 0.5, kExact);
+    EXPECT_NEAR(increment.pins[0].rm, -M, kExact);
+  }
+  ExpectNoFindings(path);
+}
+
+// A rod that stands on a spring k falls over at P = k / l, and leans by k theta = P l sin(theta) - H l cos(theta) where
+// it is pushed by H.
+TEST(Pins, AStandingRodFallsOver) {
+  for (const double length : {1e-2, 2.0, 1e2})
+    for (const double push : {0.0, 0.01}) {
+      SCOPED_TRACE(testing::Message() << "length " << length << ", push " << push);
+      constexpr double kSpring = 3.0;
+      const double critical = kSpring / length;
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "standing_rod";
+      scene.bodies = {Ground(0.0, 0.0), {"rod", 0.0, length}};
+      scene.nodes = {At("foot", 0.0, 0.0, "rod")};
+      scene.pins = {{{"ground", "foot"}, kSpring}};
+      scene.loads = {On("rod", 0.0, -critical)};
+      if (push > 0.0) scene.loads.push_back(On("rod", push * critical, 0.0, true));
+      request.options.stop = {{"load_factor", ">", 1.4}};
+      const TracedPath path = TraceIncrements(request);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      for (const Increment& increment : path.increments) {
+        const double theta = increment.rotations.back(), s = increment.load_factor;
+        EXPECT_NEAR(theta, s * std::sin(theta) - push * std::cos(theta), kExact);
+        if (push > 0.0 || std::abs(s - 1.0) > 1e-7) {
+          EXPECT_EQ(increment.stability.stability, push > 0.0 || s < 1.0 ? Verdict::kStable : Verdict::kUnstable) << s;
+        }
+      }
+      const std::vector<Increment> crossings = IncrementsOfKind(path, IncrementKind::kBifurcation);
+      ASSERT_EQ(crossings.size(), push == 0.0 ? 1U : 0U);
+      for (const Increment& crossing : crossings) EXPECT_NEAR(crossing.load_factor, 1.0, 1e-7);
+      ExpectNoFindings(path);
+    }
+}
+
+// A rigid link of the length l pushes a slider against a spring: P = K l (cos a - cos a0) tan a, K = EA / l0, and
+// jumps.
+TraceRequest Toggle() {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "toggle";
+  const double x = std::cos(0.4), y = std::sin(0.4);
+  scene.bodies = {{"link", -0.5 * x, 0.5 * y}};
+  scene.nodes = {{"apex", 0.0, y, true, false},
+                 {"slider", -x, 0.0, false, true},
+                 {"wall", -x - 2.0, 0.0, true, true},
+                 At("high", 0.0, y, "link"),
+                 At("low", -x, 0.0, "link")};
+  scene.bars = {{{"slider", "wall"}, 2.0}};
+  scene.pins = {{{"high", "apex"}}, {{"low", "slider"}}};
+  scene.loads = {{"apex", 0.0, -0.1}};
+  request.options.stop = {{"load_factor", ">", 0.8}};
+  return request;
+}
+
+TEST(Pins, ARigidToggleSnaps) {
+  for (const AtLimit at_limit : {AtLimit::kFollow, AtLimit::kJump}) {
+    TraceRequest request = Toggle();
+    request.options.at_limit = at_limit;
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    double largest = 0.0;
+    for (double a = 0.0; a < 0.4; a += 1e-5) largest = std::max(largest, (std::cos(a) - std::cos(0.4)) * std::tan(a));
+    for (const Increment& increment : path.increments) {
+      const double a = std::asin(increment.positions[1]);
+      EXPECT_NEAR(0.1 * increment.load_factor, (std::cos(a) - std::cos(0.4)) * std::tan(a), kGives);
+    }
+    EXPECT_NEAR(0.1 * IncrementsOfKind(path, IncrementKind::kSmoothLimit).at(0).load_factor, largest, kGives);
+    EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kJump).size(), at_limit == AtLimit::kJump ? 1U : 0U);
+    ExpectNoFindings(path);
+  }
+}
+
+// A crank and a rod that push a slider, in stages, with springs.
+TraceRequest SliderCrank() {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "slider_crank";
+  scene.bodies = {{"crank", 0.0, 0.5}, {"rod", 0.8, 0.7}};
+  scene.nodes = {{"o", 0.0, 0.0, true, true}, {"slider", 2.0, 0.0},           {"wall", 4.0, 0.0, true, true},
+                 At("c0", 0.0, 0.0, "crank"), At("c1", 0.0, 1.0, "crank"),    At("k0", 0.0, 1.0, "rod"),
+                 At("k1", 2.0, 0.0, "rod"),   {"above", 2.0, 3.0, true, true}};
+  scene.bars = {{{"slider", "wall"}, 2.0}, {{"slider", "above"}, 4.0}};
+  scene.pins = {{{"o", "c0"}}, {{"c1", "k0"}, 0.2, 0.1}, {{"k1", "slider"}, 0.0, 0.0, "wrist"}};
+  scene.loads = {On("rod", 0.0, -0.01, true)};
+  request.program.resize(3);
+  request.program[0].name = "push";
+  request.program[0].loads = {On("rod", 0.2, 0.0)};
+  request.program[1].name = "move";
+  request.program[1].support_motions = {{"wall", -0.3, 0.0}, {"o", 0.0, 0.2}};
+  request.program[2].name = "back";
+  request.program[2].unload = true;
+  return request;
+}
+
+TEST(Pins, AreTheSameInOtherWords) {
+  for (const TraceRequest& request : {SliderCrank(), DoublePendulum()}) {
+    SCOPED_TRACE(request.scene.name);
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNoFindings(path);
+    ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, kSame);
+    ExpectSamePath(UndoReversal(TraceIncrements(Reverse(request))), path, kSame);
+    ExpectSamePath(UndoMirror(TraceIncrements(Mirror(request))), path, kSame);
+    ExpectSamePath(UndoRotation(TraceIncrements(Rotate(request, 0.7)), 0.7), path, kSame);
+  }
+}
+
+TEST(Pins, GoOnFromAnIncrementAsIfNothingHadBeen) {
+  for (const TraceRequest& request : {DoublePendulum(), Toggle(), SliderCrank()}) {
+    SCOPED_TRACE(request.scene.name);
+    const TracedPath path = TraceIncrements(request);
+    for (const std::size_t after : {std::size_t{4}, path.increments.size() / 2, path.increments.size() - 3}) {
+      const auto end = path.increments.begin() + static_cast<std::ptrdiff_t>(after);
+      std::vector<Increment> all;
+      TraceControl control;
+      control.on_increment = [&](const Increment& increment) { all.push_back(increment); };
+      ResumeTrace(request, {path.increments.begin(), end}, control);
+      ASSERT_EQ(all.size(), path.increments.size());
+      for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < all[i].pins.size(); ++k) {
+          EXPECT_NEAR(all[i].pins[k].rx, path.increments[i].pins[k].rx, kSame) << i;
+          EXPECT_NEAR(all[i].pins[k].ry, path.increments[i].pins[k].ry, kSame) << i;
+        }
+    }
+  }
+}
+
+// Of a bag that has the state of every fourth increment alone.
+TEST(Pins, StatesBetweenAreFoundAnew) {
+  const TraceRequest request = Toggle();
+  const TracedPath path = TraceIncrements(request);
+  std::vector<Increment> thinned = path.increments;
+  for (Increment& increment : thinned)
+    if (increment.index % 4 != 0 && increment.kind == IncrementKind::kRegular) {
+      increment.positions.clear();
+      increment.rotations.clear();
+    }
+  ASSERT_EQ(RestoreStates(Expand(request).request, &thinned), thinned.size());
+  for (std::size_t i = 0; i < thinned.size(); ++i) {
+    EXPECT_NEAR(thinned[i].positions[1], path.increments[i].positions[1], kSame) << i;
+    EXPECT_NEAR(thinned[i].pins[0].ry, path.increments[i].pins[0].ry, kSame) << i;
+  }
+}
+
+// A box on a rough floor is pulled by a rigid link that is pinned to it, with 0.01 W + s: it slides at mu W.
+TEST(Pins, ABoxIsPulledByALink) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "pulled_box";
+  scene.bodies = {{"box", 0.0, 0.1}, {"link", 1.5, 0.1}};
+  scene.nodes = {At("a", -0.5, 0.0, "box"), At("b", 0.5, 0.0, "box"), At("eye", 0.5, 0.1, "box"),
+                 At("end", 0.5, 0.1, "link")};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
+  scene.contacts = {{"a", "floor"}, {"b", "floor"}};
+  scene.pins = {{{"eye", "end"}}};
+  scene.loads = {On("box", 0.0, -1.0, true), On("link", 0.01, 0.0, true), On("link", 1.0, 0.0)};
+  request.options.max_increments = 100;
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_FALSE(path.increments.empty()) << path.result.message;
+  EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, 0.29, kGives) << path.result.message;
+  for (const Increment& increment : path.increments)
+    EXPECT_NEAR(increment.pins[0].rx, 0.01 + increment.load_factor, kGives);
+  ExpectNoFindings(path);
+}
+
+// Supports cannot move apart what a rigid body holds together.
+TEST(Pins, DoNotGiveWayToSupports) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "torn_apart";
+  scene.bodies = {{"link", 0.5, 0.0}};
+  scene.nodes = {
+      {"f", 0.0, 0.0, true, true}, {"g", 1.0, 0.0, true, true}, At("p", 0.0, 0.0, "link"), At("q", 1.0, 0.0, "link")};
+  scene.pins = {{{"p", "f"}}, {{"q", "g"}}};
+  scene.support_motions = {{"g", 0.1, 0.0}};
+  request.options.stop = {{"load_factor", ">", 1.0}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kNumericalFailure) << path.result.message;
+  EXPECT_FALSE(path.result.reached);
+  ExpectNoFindings(path);
+}
+
+TEST(Pins, AreRefusedByNameWhereTheyCannotBe) {
+  const auto line = [](const std::function<void(TraceRequest*)>& change) {
+    TraceRequest request = DoublePendulum();
+    change(&request);
+    try {
+      Trace(request, {});
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto expect = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  expect(line([](TraceRequest* of) {
+           of->scene.pins[0].nodes = {"top", "below"};
+         }),
+         "scene.pins[0].nodes = [top, below]: the two nodes must be at the same point at the start");
+  expect(line([](TraceRequest* of) {
+           of->scene.pins[0].nodes = {"top", "above"};
+         }),
+         "must not name two nodes of one body: upper");
+  expect(line([](TraceRequest* of) { of->scene.pins[0].nodes = {"top"}; }), "must name two nodes");
+  expect(line([](TraceRequest* of) { of->scene.pins[0].nodes = {"top", "top"}; }), "must name two different nodes");
+  expect(line([](TraceRequest* of) { of->scene.pins[0].nodes = {"top", "hok"}; }), "did you mean hook?");
+  expect(line([](TraceRequest* of) {
+           of->scene.pins.push_back({{"below", "above"}});
+         }),
+         "scene.pins[2].nodes = [below, above]: must not be repeated");
+  expect(line([](TraceRequest* of) { of->scene.pins[0].stiffness = 1.0; }),
+         "scene.pins[0].nodes = hook: must be of a body, or a node that a beam turns");
+  expect(line([](TraceRequest* of) { of->scene.pins[0].stiffness = -1.0; }), "scene.pins[0].stiffness = -1");
+  expect(line([](TraceRequest* of) { of->scene.pins[1].name = "pin1"; }), "scene.pins[1].name = pin1: must be unique");
+  expect(line([](TraceRequest* of) { of->scene.pins[1].name = "hook"; }),
+         "scene.pins[1].name = hook: must not be the name of a node");
+  expect(line([](TraceRequest* of) {
+           of->scene.nodes.push_back({"nail", 0.0, 0.0, true, true});
+           of->scene.pins.push_back({{"nail", "hook"}});
+         }),
+         "one of the two nodes must be free to move");
+  expect(line([](TraceRequest* of) {
+           of->scene.bodies.clear();
+           for (Node& node : of->scene.nodes) node.body.clear();
+           of->scene.bars = {{{"top", "above"}, 1.0}};
+           of->scene.loads = {{"above", 1.0, 0.0}};
+           of->options.method = Method::kMpec;
+         }),
+         "options.method = mpec: must be branch in a scene with pins");
+  // Written with few digits.
+  EXPECT_EQ(line([](TraceRequest* of) { of->scene.nodes[1].x = 1e-10; }), "");
+}
+
+}  // namespace
+}  // namespace contact_path::pins_test
