@@ -43,6 +43,13 @@ class Contact {
 
   std::size_t Node() const { return node_; }
   Real Friction() const { return friction_; }
+  // The largest |r_t| / r_n in a state.
+  virtual Real FrictionIn(const PlacedState&) const { return friction_; }
+  // What a contact that gives way along t does so to: r_t over the share that is left of its friction.
+  Real GivesTo(const PlacedState& state, Real rt) const {
+    const Real now = FrictionIn(state);
+    return now == friction_ ? rt : rt * friction_ / now;
+  }
   // Whether it gives way, being one of a body.
   virtual bool Gives() const { return false; }
   // By its place in the scene; nothing of an obstacle.

@@ -248,17 +248,18 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
       continue;
     }
     const Real slip =
-        contact.LawfulSlip(from, to) / scaling.length + give * (static_cast<Real>(now.rt[i]) - before.rt[i]);
+        contact.LawfulSlip(from, to) / scaling.length +
+        (give > 0.0L ? give * (contact.GivesTo(to, now.rt[i]) - contact.GivesTo(from, before.rt[i])) : 0.0L);
     const Real unit = scene.contact_units[i];
     const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
-    const Real bound = contact.Friction() * std::max(rn, 0.0L);
+    const Real friction = contact.FrictionIn(to), bound = friction * std::max(rn, 0.0L);
     residuals.equilibrium =
         Worst(residuals.equilibrium, contact.Imbalance(to, now.rn[i], now.rt[i], scaling.length) / unit);
     residuals.penetration = Worst(residuals.penetration, -gap);
     residuals.tensile_reaction = Worst(residuals.tensile_reaction, -rn);
     const Real reaction = rn < 0.0L ? rn : std::max(rn, std::abs(rt));
     residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, reaction)));
-    residuals.cone = Worst(residuals.cone, std::abs(rt) - contact.Friction() * rn);
+    residuals.cone = Worst(residuals.cone, std::abs(rt) - friction * rn);
     residuals.friction_law = Worst(residuals.friction_law, std::abs(rt - std::clamp(rt - slip, -bound, bound)));
   }
   return residuals;
@@ -358,6 +359,14 @@ double ResidualCheck::Uncertain(const CheckedState& state) const {
 
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
   return static_cast<double>(prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to)));
+}
+
+double ResidualCheck::Friction(std::size_t contact, const CheckedState& state) const {
+  return static_cast<double>(prepared_->contacts[contact]->FrictionIn(prepared_->Placed(state)));
+}
+
+double ResidualCheck::GivesTo(std::size_t contact, const CheckedState& state) const {
+  return static_cast<double>(prepared_->contacts[contact]->GivesTo(prepared_->Placed(state), state.rt[contact]));
 }
 
 double ResidualCheck::TotalSlip(std::size_t contact, const CheckedState& state) const {

@@ -103,6 +103,9 @@ PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
   const Eigen::VectorXd values = other.structure.AllValues(point.u);
   for (const DofMap::Component& to : structure.Dofs().Components())
     if (to.dof >= 0) taken.u[to.dof] = values[other.structure.Dofs().Index(to.node, to.field, to.component)];
+  const std::vector<double> rt = other.TangentialReactions(point);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    SetReaction(i, NormalReaction(point, i), contacts[i]->FromRecord(taken.u, taken.s, rt[i]), &taken);
   NotePieces(&taken);  // an obstacle that has turned need not have them where they were
   return taken;
 }
@@ -125,11 +128,16 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
           value * UnitOf(from.field, scaling.length) + origin[static_cast<std::size_t>(from.component)];
     }
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    state.rn.push_back(NormalReaction(point, i) * scaling.force);
-    state.rt.push_back(TangentialReaction(point, i) * scaling.force);
-  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) state.rn.push_back(NormalReaction(point, i) * scaling.force);
+  for (const double rt : TangentialReactions(point)) state.rt.push_back(rt * scaling.force);
   return state;
+}
+
+std::vector<double> Model::TangentialReactions(const PathPoint& point) const {
+  std::vector<double> rt;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    rt.push_back(contacts[i]->OnRecord(point.u, point.s, TangentialReaction(point, i)));
+  return rt;
 }
 
 PathPoint Model::FromIncrement(const Increment& increment) const {
@@ -148,7 +156,8 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   point.forces = Eigen::VectorXd::Zero(laws.NumPorts());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactRecord& contact = increment.contacts[i];
-    SetReaction(i, contact.rn / scaling.force, contact.rt / scaling.force, &point);
+    SetReaction(i, contact.rn / scaling.force,
+                contacts[i]->FromRecord(point.u, point.s, contact.rt / scaling.force), &point);
     point.modes.push_back({NumberOf(contact.state), 0});
   }
   for (std::size_t k = 0; k < bars.size(); ++k) {

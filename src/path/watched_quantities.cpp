@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/path/friction_end.h"
 #include "contact_path/path/recorder.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/change_units.h"
@@ -39,9 +40,10 @@ Function OfAttachedNode(const Model& model, const Quantity& quantity) {
 Function OfContact(const Model& model, const Quantity& quantity, const FixedModeSystem& system) {
   const std::size_t i = quantity.part;
   if (quantity.kind != Quantity::Kind::kGap)
-    return [i, &system, normal = quantity.kind == Quantity::Kind::kRn](const Eigen::VectorXd& x) {
+    return [i, &system, &contact = *model.contacts[i],
+            normal = quantity.kind == Quantity::Kind::kRn](const Eigen::VectorXd& x) {
       const PathPoint point = system.Unpack(x);
-      return normal ? NormalReaction(point, i) : TangentialReaction(point, i);
+      return normal ? NormalReaction(point, i) : contact.OnRecord(point.u, point.s, TangentialReaction(point, i));
     };
   return [i, &system, &contact = *model.contacts[i]](const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
@@ -150,6 +152,7 @@ ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, st
   }
   for (const Samples& samples : request.options.at)
     Add(model, request, stage, setting, system, samples.quantity, samples.Values(), 0.0, -1, &targets);
+  FrictionEnds(model).AddTo(&targets);
   return targets;
 }
 

@@ -85,7 +85,8 @@ void PointChecks::CheckState(const Increment& before, const Increment& at, bool 
     if (stage_.configuration.HasTotalLaw() && stage_.contacts[i].friction > 0.0)
       slip = stage_.check.TotalSlip(i, to);
     else if (in_one_piece)
-      slip = stage_.check.Slip(i, from, to) + stage_.check.Give(i) * (to.rt[i] - from.rt[i]);
+      slip = stage_.check.Slip(i, from, to) +
+             stage_.check.Give(i) * (stage_.check.GivesTo(i, to) - stage_.check.GivesTo(i, from));
     CheckContact(i, at.contacts[i], to, slip / stage_.scaling.length, tolerance, tolerance_of_slip);
   }
   if (at.solve.exact) CheckSoftContacts(at);
@@ -142,7 +143,7 @@ void PointChecks::CheckContact(std::size_t i, const ContactRecord& contact, cons
   if (contact.state == ContactState::kClosed) holds = holds && std::abs(rt) <= tolerance && at.friction == 0.0;
   if (contact.state == ContactState::kStick) holds = holds && std::abs(slip) <= tolerance_of_slip;
   if (Slips(contact.state)) {
-    const double sense = contact.state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = at.friction * rn;
+    const double sense = contact.state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = stage_.check.Friction(i, state) * rn;
     // A friction force that is rounding tells no sense of the slip.
     const bool rubs = bound > at.closing * at.unit;
     holds = holds && (!rubs || sense * slip >= -tolerance_of_slip) && std::abs(rt + sense * bound) <= tolerance;
@@ -162,10 +163,11 @@ void PointChecks::CheckRecorded(const Increment& increment, const Residuals& res
   same("cone residual", increment.residuals.cone, residuals.cone);
   same("support residual", increment.residuals.support, residuals.support);
   if (with_law) same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
+  const CheckedState state = StateOf(increment);
   double given = 0.0;  // to contacts that give way
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
     const ContactRecord& contact = increment.contacts[i];
-    const double rt = contact.state == ContactState::kStick ? contact.rt : 0.0;
+    const double rt = contact.state == ContactState::kStick ? stage_.check.GivesTo(i, state) : 0.0;
     given += 0.5 * stage_.check.Give(i) * (contact.rn * contact.rn + rt * rt);
   }
   same("scaled strain energy", increment.strain_energy / stage_.Energy(),
@@ -243,7 +245,7 @@ void PointChecks::CheckSoftContacts(const Increment& increment) {
     findings_.Bound("gap and reaction of " + at.name + " are both positive",
                     std::min(increment.contacts[i].gap / stage_.scaling.length, rn), kExact);
     findings_.Bound("reaction of " + at.name + " outside of the friction cone, of the forces there",
-                    std::abs(rt) - at.friction * rn, kExact);
+                    std::abs(rt) - stage_.check.Friction(i, state) * rn, kExact);
   }
 }
 

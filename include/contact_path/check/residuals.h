@@ -104,10 +104,14 @@ class ResidualCheck {
   // radius, the gap changes by the radius there.
   double GapPastEnd(std::size_t contact, const CheckedState& state) const;
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
+  // The largest |rt| / rn.
+  double Friction(std::size_t contact, const CheckedState& state) const;
   // What forces may be off by where curvatures jump below contacts that give way [force].
   double Uncertain(const CheckedState& state) const;
   // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body.
   double Give(std::size_t contact) const;
+  // The force that it gives way to along t: rt over the share that is left of its friction [force].
+  double GivesTo(std::size_t contact, const CheckedState& state) const;
   // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws
   // std::invalid_argument where the configuration has no slip_origins.
   double TotalSlip(std::size_t contact, const CheckedState& state) const;

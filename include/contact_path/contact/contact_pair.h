@@ -80,6 +80,10 @@ class ContactPair : public Law {
   // xi, measured from 0.
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
 
+  // r_t of the force of port 1, and the other way.
+  virtual double OnRecord(const Eigen::VectorXd& /*u*/, double /*s*/, double force) const { return force; }
+  virtual double FromRecord(const Eigen::VectorXd& /*u*/, double /*s*/, double rt) const { return rt; }
+
   double Motion(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
                 const PortReals& reference) const override;
   PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int patch) const override {

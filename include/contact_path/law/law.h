@@ -101,7 +101,7 @@ class Law {
   // Whether its compliances are its own, and its forces functions of the place; otherwise compliances are there to make
   // reactions unique.
   bool Elastic() const { return traits_.elastic; }
-  // Whether Hessians can be other than zero.
+  // Whether Hessians can be other than zero, or factors other than 1.
   bool Curved() const { return traits_.curved; }
   // Whether its forces follow the motion since the start of the program, and not since the last increment. Verdicts of
   // stability do not cover it.
