@@ -60,7 +60,8 @@ bool RedundantLaws::AmongThese(const std::vector<Holding>& laws, const States& s
       if (!state.ports[p].Holds()) continue;
       LawVector force = holding.gradients[p];
       for (std::size_t other = 1; p == 0 && other < holding.gradients.size(); ++other)
-        if (state.ports[other].Follows()) force += (state.ports[other].ratio * holding.factors[other]) * holding.gradients[other];
+        if (state.ports[other].Follows())
+          force += (state.ports[other].ratio * holding.factors[other]) * holding.gradients[other];
       append(&motions, holding.gradients[p]);
       append(&forces, force.head(q - 1));
     }

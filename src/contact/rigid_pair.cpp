@@ -158,8 +158,7 @@ void RigidPair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, cons
   const Projection at = FootOf(place, u, s, patch);
   *hessian = ChangeAlong(place, at, forces[kNormal], OnRecord(u, s, forces[kTangent]), weights);
   if (share_rate_ == 0.0) return;
-  const LawVector change =
-      (forces[kTangent] * share_rate_) * (place.Hessian(XiGradient(at), XiHessian(at)) * weights);
+  const LawVector change = (forces[kTangent] * share_rate_) * (place.Hessian(XiGradient(at), XiHessian(at)) * weights);
   hessian->rightCols<1>() += change;
   hessian->bottomRows<1>() += change.transpose();
 }
@@ -168,8 +167,7 @@ LawVector RigidPair::SecondDirectional(const Eigen::VectorXd& u, double s, int p
                                        const LawVector& direction) const {
   const PlaceAt place(place_, u, s);
   const Projection at = FootOf(place, u, s, patch);
-  LawVector second =
-      ChangeAlong(place, at, forces[kNormal], OnRecord(u, s, forces[kTangent]), direction) * direction;
+  LawVector second = ChangeAlong(place, at, forces[kNormal], OnRecord(u, s, forces[kTangent]), direction) * direction;
   if (const double change = forces[kTangent] * share_rate_ * direction[direction.size() - 1]; change != 0.0)
     second += (2.0 * change) * (place.Hessian(XiGradient(at), XiHessian(at)) * direction);
   return second;

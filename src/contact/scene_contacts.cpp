@@ -118,10 +118,9 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       rolls = {circle->radius, point.frame.angle, frame.angle};
       surface = MakeSurface(WhereCentresMove(obstacle, circle->radius));
     }
-    contacts.push_back(std::make_unique<RigidPair>(std::move(surface), MovingPlace::SeenFrom(frame, point),
-                                                   can_slide ? candidate.FrictionWith(obstacle) : 0.0, force_bounds,
-                                                   slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls,
-                                                   obstacles[at].friction_rate));
+    contacts.push_back(std::make_unique<RigidPair>(
+        std::move(surface), MovingPlace::SeenFrom(frame, point), can_slide ? candidate.FrictionWith(obstacle) : 0.0,
+        force_bounds, slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls, obstacles[at].friction_rate));
   }
   return contacts;
 }

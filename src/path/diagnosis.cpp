@@ -193,7 +193,8 @@ Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
 Causes LightLoads(const Model& model) {
   const double weight = model.structure.ConstantLoad().norm();
   const double rounding = model.structure.NumDofs() > 0 ? model.structure.ForceRounding().maxCoeff() : 0.0;
-  if (IsDriven(model.scene) || !(weight * model.scaling.load_factor >= kWeight) || !(rounding > kExactLoads * weight)) return {};
+  if (IsDriven(model.scene) || !(weight * model.scaling.load_factor >= kWeight) || !(rounding > kExactLoads * weight))
+    return {};
   return {{sentences::kLightLoads, {}, rounding / weight}};
 }
 

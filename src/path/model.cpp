@@ -156,8 +156,8 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   point.forces = Eigen::VectorXd::Zero(laws.NumPorts());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactRecord& contact = increment.contacts[i];
-    SetReaction(i, contact.rn / scaling.force,
-                contacts[i]->FromRecord(point.u, point.s, contact.rt / scaling.force), &point);
+    SetReaction(i, contact.rn / scaling.force, contacts[i]->FromRecord(point.u, point.s, contact.rt / scaling.force),
+                &point);
     point.modes.push_back({NumberOf(contact.state), 0});
   }
   for (std::size_t k = 0; k < bars.size(); ++k) {

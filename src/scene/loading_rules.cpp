@@ -184,9 +184,10 @@ void LoadingRules::CheckMachine(const KeyPath& where, const Loading& of) {
   const char* const list = !of.support_motions.empty()    ? "support_motions"
                            : !of.obstacle_motions.empty() ? "obstacle_motions"
                                                           : "friction_changes";
-  checker_.Add(where.Key(list), "",
-               "must be empty where a machine loads the structure (machine_stiffness): a stage has a machine, or motions "
-               "or changes of friction");
+  checker_.Add(
+      where.Key(list), "",
+      "must be empty where a machine loads the structure (machine_stiffness): a stage has a machine, or motions "
+      "or changes of friction");
 }
 
 void LoadingRules::CheckFrictionChanges(const KeyPath& where, const std::vector<FrictionChange>& changes) {

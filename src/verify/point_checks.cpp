@@ -143,7 +143,8 @@ void PointChecks::CheckContact(std::size_t i, const ContactRecord& contact, cons
   if (contact.state == ContactState::kClosed) holds = holds && std::abs(rt) <= tolerance && at.friction == 0.0;
   if (contact.state == ContactState::kStick) holds = holds && std::abs(slip) <= tolerance_of_slip;
   if (Slips(contact.state)) {
-    const double sense = contact.state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = stage_.check.Friction(i, state) * rn;
+    const double sense = contact.state == ContactState::kSlipPlus ? 1.0 : -1.0,
+                 bound = stage_.check.Friction(i, state) * rn;
     // A friction force that is rounding tells no sense of the slip.
     const bool rubs = bound > at.closing * at.unit;
     holds = holds && (!rubs || sense * slip >= -tolerance_of_slip) && std::abs(rt + sense * bound) <= tolerance;

@@ -142,8 +142,7 @@ TEST_F(RigidPairs, ForcesOfFrictionThatChangesMeetDifferences) {
       const auto evaluate = [&](const Eigen::VectorXd& at) { return KinematicsAt(pair, at, at[2], patch); };
       const auto force = [&](const Eigen::VectorXd& at) {
         const PortsAt ports = evaluate(at);
-        return Eigen::VectorXd(kRn * ports[kNormal].gradient +
-                               kRt * ports[kTangent].factor * ports[kTangent].gradient);
+        return Eigen::VectorXd(kRn * ports[kNormal].gradient + kRt * ports[kTangent].factor * ports[kTangent].gradient);
       };
       const auto change = [&](const Eigen::VectorXd& at) { return evaluate(at).ForceChange({kRn, kRt}); };
       const Eigen::VectorXd direction = random_.Vector(3, -1.0, 1.0), bend = random_.Vector(3, -1.0, 1.0);

@@ -15,8 +15,8 @@ namespace contact_path::friction_changes_test {
 namespace {
 
 constexpr double kExact = 1e-9;
-constexpr double kGives = 5e-8;     // contacts of bodies give way by 1e-8 of their forces
-constexpr double kLeft = 1.1e-6;    // of the friction, where the path ends
+constexpr double kGives = 5e-8;   // contacts of bodies give way by 1e-8 of their forces
+constexpr double kLeft = 1.1e-6;  // of the friction, where the path ends
 
 Load OnNode(const std::string& node, double fx, double fy, bool constant) {
   Load load;
@@ -82,9 +82,9 @@ TEST(FrictionChanges, ASlidingNodeBearsWhatFrictionIs) {
       for (const bool mirrored : {false, true})
         for (const FrictionLaw law : {FrictionLaw::kIncremental, FrictionLaw::kTotal}) {
           constexpr double kFriction = 0.4;
-          SCOPED_TRACE(testing::Message() << "length " << units.length << ", load factor " << units.load_factor
-                                          << ", rate " << rate << (mirrored ? ", mirrored" : "")
-                                          << (law == FrictionLaw::kTotal ? ", total" : ""));
+          SCOPED_TRACE(testing::Message()
+                       << "length " << units.length << ", load factor " << units.load_factor << ", rate " << rate
+                       << (mirrored ? ", mirrored" : "") << (law == FrictionLaw::kTotal ? ", total" : ""));
           TraceRequest request = Slider(units, kFriction, rate);
           request.scene.obstacle_motions = {{"floor", units.length / units.load_factor, 0.0}};
           request.options.friction_law = law;
