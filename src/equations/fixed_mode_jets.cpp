@@ -79,6 +79,15 @@ Jet FixedModeSystem::DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::Ve
       }
       return sum;
     };
+    // Compliances are of factors that are linear in the load factor.
+    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+      const double compliance = law.In(modes_[i]).ports[p].compliance;
+      if (compliance == 0.0 || at[p].factor_gradient.size() == 0) continue;
+      const double stores = compliance * at[p].factor_gradient[last];
+      force.value += 0.5 * stores * forces[p] * forces[p];
+      force.first += stores * forces[p] * rates[p];
+      force.second += stores * (rates[p] * rates[p] + forces[p] * changes[p]);
+    }
     const LawVector of_forces = row(forces);
     force.first -= of_forces.dot(along);
     force.second -= 2.0 * row(rates).dot(along) + of_forces.dot(bend) +

@@ -168,8 +168,8 @@ void PointChecks::CheckRecorded(const Increment& increment, const Residuals& res
   double given = 0.0;  // to contacts that give way
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
     const ContactRecord& contact = increment.contacts[i];
-    const double rt = contact.state == ContactState::kStick ? stage_.check.GivesTo(i, state) : 0.0;
-    given += 0.5 * stage_.check.Give(i) * (contact.rn * contact.rn + rt * rt);
+    const double rt = contact.state == ContactState::kStick ? contact.rt : 0.0;
+    given += 0.5 * stage_.check.Give(i) * (contact.rn * contact.rn + rt * stage_.check.GivesTo(i, state));
   }
   same("scaled strain energy", increment.strain_energy / stage_.Energy(),
        (stage_.check.StrainEnergy(increment.positions, increment.rotations) + given) / stage_.Energy(),

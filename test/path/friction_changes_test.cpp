@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact_path/path/trace.h"
+#include "contact_path/scene/validate.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -359,6 +360,61 @@ TEST(FrictionChanges, OnCurves) {
       EXPECT_NEAR(std::abs(last.contacts[0].rt), (0.5 + rate) * last.contacts[0].rn, kExact);
       EXPECT_LT(EnergyImbalance(path), 1e-7);
     }
+}
+
+// Each change of a sound request breaks one rule.
+TEST(FrictionChanges, WhatIsNotSoundIsRefusedByName) {
+  using Change = void (*)(TraceRequest*);
+  const std::pair<Change, const char*> kBroken[] = {
+      {[](TraceRequest* r) { r->scene.friction_changes[0].obstacle = "ceiling"; },
+       "scene.friction_changes[0].obstacle = ceiling: "},
+      {[](TraceRequest* r) {
+         r->scene.friction_changes.push_back({"floor", 0.2});
+       },
+       "scene.friction_changes[1].obstacle = floor: must not be repeated"},
+      {[](TraceRequest* r) { r->scene.friction_changes[0].rate = 0.0; },
+       "scene.friction_changes[0].rate = 0: must not be 0"},
+      {[](TraceRequest* r) { r->scene.friction_changes[0].rate = INFINITY; },
+       "scene.friction_changes[0].rate = .inf: must be finite"},
+      {[](TraceRequest* r) { r->scene.obstacles[0].friction = 0.0; },
+       "scene.friction_changes[0].obstacle = floor: must have friction > 0 at load factor 0, or its contact b@floor "
+       "must"},
+      {[](TraceRequest* r) {
+         r->scene.obstacles.push_back(HalfPlane("wall", 1.0, 0.0, 0.2));
+         r->scene.friction_changes[0].obstacle = "wall";
+       },
+       "scene.friction_changes[0].obstacle = wall: must be the obstacle of a contact"},
+      {[](TraceRequest* r) { r->options.method = Method::kMpec; },
+       "options.method = mpec: must be branch where friction changes with the load factor"},
+      {[](TraceRequest* r) {
+         r->scene.loads.push_back(OnNode("b", 1.0, 0.0, false));
+         r->options.machine_stiffness = 1.0;
+       },
+       "scene.friction_changes: must be empty where a machine loads the structure"},
+      {[](TraceRequest* r) {
+         r->program.resize(1);
+         r->program[0].friction_changes = r->scene.friction_changes;
+       },
+       "scene.friction_changes: must be empty where there is a program"},
+      {[](TraceRequest* r) {
+         r->program.resize(2);
+         std::swap(r->program[0].friction_changes, r->scene.friction_changes);
+         r->program[1].unload = true;
+         r->program[1].friction_changes = r->program[0].friction_changes;
+       },
+       "program[1].friction_changes: must be empty where the stage unloads"},
+      {[](TraceRequest* r) { r->scene.friction_changes.clear(); },
+       "scene.loads = no net force: a load that is not constant must act on a free component, a support or an obstacle "
+       "must move, or friction must change"},
+  };
+  EXPECT_TRUE(Validate(Slider({}, 0.5, -0.1)).empty());
+  for (const auto& [change, line] : kBroken) {
+    TraceRequest request = Slider({}, 0.5, -0.1);
+    change(&request);
+    const std::vector<Violation> violations = Validate(request);
+    ASSERT_EQ(violations.size(), 1U) << line;
+    EXPECT_EQ(violations[0].ToLine().substr(0, std::string(line).size()), line);
+  }
 }
 
 }  // namespace

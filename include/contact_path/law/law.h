@@ -144,6 +144,9 @@ class Law {
   PortReals CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const;
   // Stored in the compliance of its ports [force length].
   double Energy(const Mode& mode, const PortReals& forces) const;
+  // The same at a place: a port with a factor stores compliance * factor * force^2 / 2. What changes the factor works on
+  // it (FixedModeSystem::DrivingForceAlong).
+  double EnergyAt(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const;
 
   // References at a place from which an arc sets out.
   virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;

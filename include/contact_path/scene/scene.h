@@ -398,7 +398,7 @@ struct Stage {
   // true: takes the loads and motions that the stages before have left back, in proportion to its load factor, from 0
   // to `target` <= 1; it has none of its own.
   bool unload = false;
-  std::vector<FrictionChange> friction_changes;
+  std::vector<FrictionChange> friction_changes = {};
 
   double Target() const { return target == 0.0 ? 1.0 : target; }
 };
