@@ -25,7 +25,7 @@ Function = TypeVar('Function', bound=Callable[..., Any])
 
 #: Lists of parts of a scene, in the order of scene files. A method of Parts or Loading for each, named by its singular.
 LISTS = ('nodes', 'bars', 'superelements', 'beams', 'materials', 'solids', 'groups', 'surfaces', 'loads', 'obstacles', 'contacts',
-         'supports', 'support_motions', 'obstacle_motions', 'bodies', 'tendons', 'pins')
+         'supports', 'support_motions', 'obstacle_motions', 'bodies', 'tendons', 'pins', 'friction_changes')
 #: Where it is not the list without its last letter.
 SINGULARS = {'bodies': 'body'}
 
@@ -76,6 +76,11 @@ class Loading:
                         about_y: float = 0.0) -> None:
         """How far an obstacle moves by load factor 1: dx, dy [length], after a turn [rad] about about_x, about_y [length]."""
         self._add('obstacle_motions', locals())
+
+    @named
+    def friction_change(self, obstacle: str = '', *, rate: float = 0.0) -> None:
+        """By how much the coefficient of friction of all contacts with an obstacle changes by load factor 1: rate [-]."""
+        self._add('friction_changes', locals())
 
     def _add(self, part: str, given: Mapping[str, Any]) -> None:
         self._parts.setdefault(part, []).append(entry_of(given))
@@ -170,8 +175,7 @@ class Parts(Loading):
         self._add('pins', locals())
 
     @named
-    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0,
-               friction: float = 0.0) -> None:
+    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0, friction: float = 0.0) -> None:
         """A string through nodes, along which it slides: stiffness EA [force], rest_length [length], 0: the sum of the distances at the
         start. It bears tension alone. friction: Coulomb's coefficient at the nodes between its ends, where the tensions before and behind
         differ by at most the factor exp(friction angle)."""

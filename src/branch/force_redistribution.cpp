@@ -37,7 +37,7 @@ Eigen::Vector2d ForceOn(const PortsAt& at, const PortReals& forces) {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
   const auto m = static_cast<Eigen::Index>(at.dofs.size());
   for (std::size_t p = 0; p < forces.size(); ++p)
-    if (forces[p] != 0.0) force.head(m) += forces[p] * at[p].gradient.head(m);
+    if (forces[p] != 0.0) force.head(m) += (forces[p] * at[p].factor) * at[p].gradient.head(m);
   return force;
 }
 

@@ -30,8 +30,9 @@ RedundantLaws::RedundantLaws(const Laws& laws, const PathPoint& point, double ga
       continue;
     PortsAt at;
     law.Evaluate(point.u, point.s, point.modes[i].piece, {}, &at);
-    Holding holding = {i, {}};
+    Holding holding = {i, {}, {}};
     for (std::size_t p = 0; p < law.NumPorts(); ++p) holding.gradients.push_back(at[p].gradient);
+    for (std::size_t p = 0; p < law.NumPorts(); ++p) holding.factors.push_back(at[p].factor);
     by_dofs_[std::vector<int>(at.dofs.begin(), at.dofs.end())].push_back(std::move(holding));
   }
   // One law holds what moves in as many directions as it has ports in one way.
@@ -59,7 +60,8 @@ bool RedundantLaws::AmongThese(const std::vector<Holding>& laws, const States& s
       if (!state.ports[p].Holds()) continue;
       LawVector force = holding.gradients[p];
       for (std::size_t other = 1; p == 0 && other < holding.gradients.size(); ++other)
-        if (state.ports[other].Follows()) force += state.ports[other].ratio * holding.gradients[other];
+        if (state.ports[other].Follows())
+          force += (state.ports[other].ratio * holding.factors[other]) * holding.gradients[other];
       append(&motions, holding.gradients[p]);
       append(&forces, force.head(q - 1));
     }

@@ -33,6 +33,7 @@ struct MovedObstacle {
   std::size_t circle = 0;                          // the body that carries it
   std::optional<std::size_t> body = std::nullopt;  // node; its reference point is `about` at the start
   std::size_t num_nodes = 0;                       // of the scene
+  Real friction_rate = 0.0L;                       // per unit of the load factor
 
   Real TurnAt(const PlacedState& state) const { return body ? state.Rotation(*body) : turn * state.LoadFactor(); }
 };
@@ -44,6 +45,9 @@ class ObstacleContact : public Contact {
   ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin, bool of_body)
       : Contact(node, obstacle.friction), obstacle_(std::move(obstacle)), slip_origin_(slip_origin), gives_(of_body) {}
 
+  Real FrictionIn(const PlacedState& state) const override {
+    return obstacle_.friction + obstacle_.friction_rate * state.LoadFactor();
+  }
   bool Gives() const override { return gives_; }
   bool SurelyOpen(const PlacedState& state) const override {
     return !Rolls() && obstacle_.surface->SurelyOpen(Position(state));
@@ -267,6 +271,7 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     moved.turn = motion.turn;
     moved.about = {motion.about_x, motion.about_y};
   }
+  for (const FrictionChange& change : scene.friction_changes) obstacles.at(change.obstacle).friction_rate = change.rate;
   std::unordered_map<std::string_view, std::size_t> surfaces;
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) surfaces.emplace(scene.surfaces[i].name, i);
   std::vector<std::unique_ptr<const Contact>> contacts;

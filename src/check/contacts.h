@@ -48,6 +48,11 @@ class Contact {
   virtual Real FrictionIn(const PlacedState&) const { return friction_; }
   // What works along the slip over r_t.
   virtual Real Stretch(Real /*rn*/) const { return 1.0L; }
+  // What a contact that gives way along t does so to: r_t over the share that is left of its friction.
+  Real GivesTo(const PlacedState& state, Real rt) const {
+    const Real now = FrictionIn(state);
+    return now == friction_ ? rt : rt * friction_ / now;
+  }
   // Whether it gives way, being one of a body.
   virtual bool Gives() const { return false; }
   // By its place in the scene; nothing of an obstacle.

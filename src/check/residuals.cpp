@@ -278,7 +278,8 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
       continue;
     }
     const Real slip =
-        contact.LawfulSlip(from, to) / scaling.length + give * (static_cast<Real>(now.rt[i]) - before.rt[i]);
+        contact.LawfulSlip(from, to) / scaling.length +
+        (give > 0.0L ? give * (contact.GivesTo(to, now.rt[i]) - contact.GivesTo(from, before.rt[i])) : 0.0L);
     const Real unit = scene.contact_units[i];
     const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
     const Real friction = contact.FrictionIn(to), bound = friction * std::max(rn, 0.0L);
@@ -403,6 +404,10 @@ double ResidualCheck::SlidingForce(std::size_t contact, const CheckedState& stat
   const check::Contact& of = *prepared_->contacts[contact];
   const double rn = state.rn[contact];
   return Friction(contact, state) * rn * static_cast<double>(of.Stretch(rn));
+}
+
+double ResidualCheck::GivesTo(std::size_t contact, const CheckedState& state) const {
+  return static_cast<double>(prepared_->contacts[contact]->GivesTo(prepared_->Placed(state), state.rt[contact]));
 }
 
 double ResidualCheck::TotalSlip(std::size_t contact, const CheckedState& state) const {

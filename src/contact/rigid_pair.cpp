@@ -18,12 +18,14 @@ constexpr double kCoordinate = 1e-15;  // known to so much, scaled
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
                      const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin,
-                     double compliance, const Rolling& rolls)
-    : surface_(std::move(surface)), place_(std::move(place)) {
+                     double compliance, const Rolling& rolls, double friction_rate)
+    : surface_(std::move(surface)),
+      place_(std::move(place)),
+      share_rate_(friction > 0.0 ? friction_rate / friction : 0.0) {
   Traits traits;
   SurfaceTraits of_surface;
   traits.largest_ratio = friction;
-  traits.curved = !surface_->Flat() || !place_.Affine();
+  traits.curved = !surface_->Flat() || !place_.Affine() || share_rate_ != 0.0;
   traits.compliant = compliance > 0.0;
   of_surface.compliance = compliance;
   of_surface.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
@@ -100,13 +102,20 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const Po
     return;
   }
   const PlaceAt place(place_, u, s);
-  const Projection at = surface_->Project(place.x, NearestKnown(KnownPatch(u, s, patch)));
+  const Projection at = FootOf(place, u, s, patch);
   gap.motion = at.gap - reference[kNormal];
   xi.motion = at.xi - reference[kTangent] + ports->Rate(roll_, u, s);
   gap.gradient = place.first.transpose() * at.normal;
   xi.gradient = place.first.transpose() * XiGradient(at) + roll_;
   gap.hessian = place.Hessian(at.normal, GapHessian(at));
   xi.hessian = place.Hessian(XiGradient(at), XiHessian(at));
+  if (share_rate_ == 0.0) return;
+  xi.factor = Share(s);
+  xi.factor_gradient = LawVector::Unit(xi.gradient.size(), xi.gradient.size() - 1) * share_rate_;
+}
+
+Projection RigidPair::FootOf(const PlaceAt& place, const Eigen::VectorXd& u, double s, int patch) const {
+  return surface_->Project(place.x, NearestKnown(KnownPatch(u, s, patch)));
 }
 
 double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
@@ -135,15 +144,46 @@ int RigidPair::PatchAfter(const Eigen::VectorXd& u, double s, int from) const {
   return HasPatches() ? PatchBeside(*surface_, place_.At(u, s), from) : 0;
 }
 
-void RigidPair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
-                             const LawVector& direction, LawMatrix* derivative) const {
-  const double rn = forces[kNormal], rt = forces[kTangent];
-  const PlaceAt place(place_, u, s);
-  const Projection at = surface_->Project(place.x, NearestKnown(KnownPatch(u, s, patch)));
+LawMatrix RigidPair::ChangeAlong(const PlaceAt& place, const Projection& at, double rn, double rt,
+                                 const LawVector& weights) const {
   // The force is a gradient: its second derivatives, weighted, are the change of its first ones along the weights.
-  const Eigen::Vector2d v = place.first * direction;
-  *derivative = place.HessianChange(rn * at.normal + rt * XiGradient(at), rn * GapHessian(at) + rt * XiHessian(at),
-                                    rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v), direction);
+  const Eigen::Vector2d v = place.first * weights;
+  return place.HessianChange(rn * at.normal + rt * XiGradient(at), rn * GapHessian(at) + rt * XiHessian(at),
+                             rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v), weights);
+}
+
+void RigidPair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
+                             const LawVector& weights, LawMatrix* hessian) const {
+  const PlaceAt place(place_, u, s);
+  const Projection at = FootOf(place, u, s, patch);
+  *hessian = ChangeAlong(place, at, forces[kNormal], OnRecord(u, s, forces[kTangent]), weights);
+  if (share_rate_ == 0.0) return;
+  const LawVector change = (forces[kTangent] * share_rate_) * (place.Hessian(XiGradient(at), XiHessian(at)) * weights);
+  hessian->rightCols<1>() += change;
+  hessian->bottomRows<1>() += change.transpose();
+}
+
+LawVector RigidPair::SecondDirectional(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
+                                       const LawVector& direction) const {
+  const PlaceAt place(place_, u, s);
+  const Projection at = FootOf(place, u, s, patch);
+  LawVector second = ChangeAlong(place, at, forces[kNormal], OnRecord(u, s, forces[kTangent]), direction) * direction;
+  if (const double change = forces[kTangent] * share_rate_ * direction[direction.size() - 1]; change != 0.0)
+    second += (2.0 * change) * (place.Hessian(XiGradient(at), XiHessian(at)) * direction);
+  return second;
+}
+
+Eigen::Vector3d RigidPair::FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
+                                       const LawVector& first, const LawVector& second) const {
+  if (port == kNormal || share_rate_ == 0.0) return Law::FactorAlong(port, u, s, patch, first, second);
+  const Eigen::Index last = first.size() - 1;
+  return {Share(s), share_rate_ * first[last], share_rate_ * second[last]};
+}
+
+double RigidPair::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du,
+                         double ds, int patch_after) const {
+  const double motion = Law::Travel(port, u, s, patch, du, ds, patch_after);
+  return port == kTangent && share_rate_ != 0.0 ? Share(s + 0.5 * ds) * motion : motion;
 }
 
 }  // namespace contact_path

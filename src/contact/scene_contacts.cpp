@@ -69,6 +69,7 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
   struct Placed {
     std::shared_ptr<const Surface> surface;
     MovingFrame frame;
+    double friction_rate = 0.0;
   };
   std::vector<Placed> obstacles;
   for (const Obstacle& obstacle : scene.obstacles) obstacles.push_back({MakeSurface(obstacle), {}});
@@ -82,6 +83,9 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (const std::string& body = scene.obstacles[i].body; !body.empty())
       obstacles[i].frame = structure.FrameOfBody(static_cast<int>(index.Node(body)));
+
+  for (const FrictionChange& change : scene.friction_changes)
+    obstacles[index.Obstacle(change.obstacle)].friction_rate = change.rate;
 
   std::vector<PlacedBoundary> boundaries(scene.surfaces.size());
   const Eigen::VectorXd force_bounds = structure.ForceBounds();
@@ -127,9 +131,9 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       rolls = {circle->radius, point.frame.angle, frame.angle};
       surface = MakeSurface(WhereCentresMove(obstacle, circle->radius));
     }
-    contacts.push_back(std::make_unique<RigidPair>(std::move(surface), MovingPlace::SeenFrom(frame, point),
-                                                   can_slide ? candidate.FrictionWith(obstacle) : 0.0, force_bounds,
-                                                   slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls));
+    contacts.push_back(std::make_unique<RigidPair>(
+        std::move(surface), MovingPlace::SeenFrom(frame, point), can_slide ? candidate.FrictionWith(obstacle) : 0.0,
+        force_bounds, slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls, obstacles[at].friction_rate));
   }
   return contacts;
 }

@@ -34,7 +34,7 @@ Jet FixedModeSystem::LeadingForceAlong(std::size_t law, std::size_t port, const 
   const Eigen::Index k = UnknownOf(law, 0), s = NumDofs();
   const Law& of = laws_[law];
   const Jet force = {x[k], first[k], second[k]};
-  if (!of.Compliant()) return force;
+  if (!of.Curved()) return force;
   const PortsAt at = Evaluate(law, x);
   const Eigen::Vector3d c =
       of.FactorAlong(port, x, x[s], modes_[law].piece, at.Local(first, first[s]), at.Local(second, second[s]));
@@ -65,7 +65,7 @@ Jet FixedModeSystem::DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::Ve
     const Law& law = laws_[i];
     const PortsAt at = Evaluate(i, x);
     const auto last = static_cast<Eigen::Index>(at.dofs.size());
-    const auto by_load = [&](std::size_t p) { return at[p].gradient[last]; };
+    const auto by_load = [&](std::size_t p) { return at[p].factor * at[p].gradient[last]; };
     force.value -= weighted(forces, by_load);
     force.first -= weighted(rates, by_load);
     force.second -= weighted(changes, by_load);
@@ -73,9 +73,21 @@ Jet FixedModeSystem::DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::Ve
     const LawVector along = at.Local(first, first[NumDofs()]), bend = at.Local(second, second[NumDofs()]);
     const auto row = [&](const PortReals& of_forces) {
       LawVector sum = LawVector::Zero(last + 1);
-      for (std::size_t p = 0; p < law.NumPorts(); ++p) sum += of_forces[p] * at[p].hessian.row(last).transpose();
+      for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+        sum += (of_forces[p] * at[p].factor) * at[p].hessian.row(last).transpose();
+        if (at[p].factor_gradient.size() > 0) sum += (of_forces[p] * at[p].gradient[last]) * at[p].factor_gradient;
+      }
       return sum;
     };
+    // Compliances are of factors that are linear in the load factor.
+    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+      const double compliance = law.In(modes_[i]).ports[p].compliance;
+      if (compliance == 0.0 || at[p].factor_gradient.size() == 0) continue;
+      const double stores = compliance * at[p].factor_gradient[last];
+      force.value += 0.5 * stores * forces[p] * forces[p];
+      force.first += stores * forces[p] * rates[p];
+      force.second += stores * (rates[p] * rates[p] + forces[p] * changes[p]);
+    }
     const LawVector of_forces = row(forces);
     force.first -= of_forces.dot(along);
     force.second -= 2.0 * row(rates).dot(along) + of_forces.dot(bend) +

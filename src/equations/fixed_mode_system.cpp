@@ -270,7 +270,7 @@ Eigen::VectorXd FixedModeSystem::Rounding(const Eigen::VectorXd& x) const {
 
 double FixedModeSystem::Energy(const Eigen::VectorXd& x) const {
   double energy = structure_.Energy(x.head(NumDofs()));
-  for (const std::size_t i : acting_) energy += laws_[i].Energy(modes_[i], ForcesOf(i, x));
+  for (const std::size_t i : acting_) energy += laws_[i].EnergyAt(x, x[NumDofs()], modes_[i], ForcesOf(i, x));
   return energy;
 }
 

@@ -92,6 +92,15 @@ double Law::Energy(const Mode& mode, const PortReals& forces) const {
   return energy;
 }
 
+double Law::EnergyAt(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const {
+  if (!Curved() || !Compliant() || Elastic() || forces == PortReals{}) return Energy(mode, forces);
+  PortsAt at;
+  Evaluate(u, s, mode.piece, {}, &at);
+  PortReals stored = forces;
+  for (std::size_t p = 0; p < NumPorts(); ++p) stored[p] *= std::sqrt(std::max(0.0, at[p].factor));
+  return Energy(mode, stored);
+}
+
 void Law::AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const {
   for (const LimitRule& rule : In(mode).limits) limits->push_back({law, rule.id});
 }

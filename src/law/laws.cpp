@@ -32,7 +32,8 @@ Eigen::VectorXd Laws::ReferencesAt(const PathPoint& point) const {
 
 double Laws::Energy(const PathPoint& point) const {
   double energy = 0.0;
-  for (std::size_t i = 0; i < laws_.size(); ++i) energy += laws_[i]->Energy(point.modes[i], Of(point.forces, i));
+  for (std::size_t i = 0; i < laws_.size(); ++i)
+    energy += laws_[i]->EnergyAt(point.u, point.s, point.modes[i], Of(point.forces, i));
   return energy;
 }
 

@@ -193,8 +193,8 @@ Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
 Causes LightLoads(const Model& model) {
   const double weight = model.structure.ConstantLoad().norm();
   const double rounding = model.structure.NumDofs() > 0 ? model.structure.ForceRounding().maxCoeff() : 0.0;
-  const bool moves = !model.scene.support_motions.empty() || !model.scene.obstacle_motions.empty();
-  if (moves || !(weight * model.scaling.load_factor >= kWeight) || !(rounding > kExactLoads * weight)) return {};
+  if (IsDriven(model.scene) || !(weight * model.scaling.load_factor >= kWeight) || !(rounding > kExactLoads * weight))
+    return {};
   return {{sentences::kLightLoads, {}, rounding / weight}};
 }
 
@@ -221,7 +221,8 @@ Causes HiddenSlip(const Model& model, const PathPoint& point) {
     if (!(rn > 0.0) || margin > tolerances::kAccepted * (1.0 + rn)) continue;
     const double curvature = SharpestAt(pair, point, point.modes[i].piece).curvature;
     // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
-    const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;
+    const double mu = pair.OnRecord(point.u, point.s, pair.Friction());
+    const double load_rate = (1.0 + mu * mu) * rn * curvature;
     const double least = tolerances::kRate;
     if (!(load_rate > 1.0 / least)) continue;
     const std::string name = model.scene.contacts[i].Name();

@@ -170,7 +170,8 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
     // Not every node can slide on a rough obstacle.
     const ContactPair& pair = *model.contacts[i];
     if (!pair.Frictional()) continue;
-    const std::string rough = contact.obstacle + " (" + NumberText(pair.Friction()) + ")";
+    const std::string rough =
+        contact.obstacle + " (" + NumberText(pair.OnRecord(point.u, point.s, pair.Friction())) + ")";
     if (!Has(names.rough, rough)) names.rough.push_back(rough);
   }
   return names;

@@ -106,6 +106,9 @@ PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
   const Eigen::VectorXd values = other.structure.AllValues(point.u);
   for (const DofMap::Component& to : structure.Dofs().Components())
     if (to.dof >= 0) taken.u[to.dof] = values[other.structure.Dofs().Index(to.node, to.field, to.component)];
+  const std::vector<double> rt = other.TangentialReactions(point);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    SetReaction(i, NormalReaction(point, i), contacts[i]->FromRecord(taken.u, taken.s, rt[i]), &taken);
   NotePieces(&taken);  // an obstacle that has turned need not have them where they were
   return taken;
 }
@@ -128,15 +131,20 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
           value * UnitOf(from.field, scaling.length) + origin[static_cast<std::size_t>(from.component)];
     }
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    state.rn.push_back(NormalReaction(point, i) * scaling.force);
-    state.rt.push_back(contacts[i]->OnRecord(point.u, point.s, TangentialReaction(point, i)) * scaling.force);
-  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) state.rn.push_back(NormalReaction(point, i) * scaling.force);
+  for (const double rt : TangentialReactions(point)) state.rt.push_back(rt * scaling.force);
   for (std::size_t pin = 0; pin < pins.size(); ++pin) {
     const PortReals forces = laws.Of(point.forces, LawOfPin(pin));
     state.pins.insert(state.pins.end(), {forces[0] * scaling.force, forces[1] * scaling.force});
   }
   return state;
+}
+
+std::vector<double> Model::TangentialReactions(const PathPoint& point) const {
+  std::vector<double> rt;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    rt.push_back(contacts[i]->OnRecord(point.u, point.s, TangentialReaction(point, i)));
+  return rt;
 }
 
 PathPoint Model::FromIncrement(const Increment& increment) const {

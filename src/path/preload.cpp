@@ -22,6 +22,7 @@ Scene PreloadScene(const Model& model, const Eigen::VectorXd& holding) {
   Scene scene = model.scene;
   scene.loads.clear();
   scene.obstacle_motions.clear();
+  scene.friction_changes.clear();
   for (const Load& load : model.scene.loads)
     if (load.constant) {
       scene.loads.push_back(load);

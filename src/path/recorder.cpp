@@ -81,7 +81,7 @@ void FillLists(const Model& model, const PathPoint& point, const LongLists& list
   if (lists.sections) increment->sections = model.Elements().Sections(values);
   if (lists.stresses) increment->stresses = model.Elements().Stresses(values);
   if (lists.pressures) {
-    Pressures pressures = model.PressuresOfContacts().At(values, point);
+    Pressures pressures = model.PressuresOfContacts().At(values, point, model.TangentialReactions(point));
     increment->pressures = std::move(pressures.contacts);
     increment->widths = std::move(pressures.widths);
   }

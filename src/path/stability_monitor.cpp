@@ -37,9 +37,9 @@ void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
 
 void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const Eigen::MatrixXd& null_directions,
                             std::optional<Eigen::Index> falls) {
-  // Where supports or obstacles move besides, f . u does not tell the work along the path.
+  // Where supports or obstacles move besides, or friction changes, f . u does not tell the work along the path.
   const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
-                           (model_.structure.PrescribedDofs().empty() && model_.scene.obstacle_motions.empty());
+                           (model_.structure.PrescribedDofs().empty() && !IsDriven(model_.scene));
   if (falls && known_ && loads_alone && null_directions.cols() == 0 && problem_.IsSymmetric(point.modes))
     Follow(at, static_cast<int>(*falls));
   else

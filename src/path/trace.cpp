@@ -13,6 +13,7 @@
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/earlier_trace.h"
+#include "contact_path/path/friction_end.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/machine_setting.h"
 #include "contact_path/path/preload.h"
@@ -134,8 +135,7 @@ class Tracer {
 
   // scene: of a stage.
   bool DrivesForward(const Scene& scene) const {
-    const bool moves = !scene.support_motions.empty() || !scene.obstacle_motions.empty();
-    return request_.options.DrivesForward(moves || !request_.program.empty());
+    return request_.options.DrivesForward(IsDriven(scene) || !request_.program.empty());
   }
 
   // increment: index of the one to set out from.
@@ -153,8 +153,7 @@ class Tracer {
     branch.on_trial = control_.on_trial;
     branch.returns = &*returns_;
     branch.largest_reaction = &largest_reaction_;
-    branch.forward =
-        options.DrivesForward(target || !model.scene.support_motions.empty() || !model.scene.obstacle_motions.empty());
+    branch.forward = options.DrivesForward(target || IsDriven(model.scene));
     return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
   }
 
@@ -196,6 +195,8 @@ class Tracer {
     if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
     if (IsAt(target)) return EndStage(stage);
+    if (const std::optional<Cause> friction = FrictionEnds(model).At(point_))
+      return EndBy(EndReason::kPathEnd, *friction);
     const PathPoint before = model.FromIncrement(*resumption.before);
     may_snap_ = MaySnap(resumption.from->stability, request_.options.method == Method::kBranch);
     if (const std::optional<Cause> escape =
@@ -289,6 +290,8 @@ class Tracer {
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
     stop_.Note(recorder_.increment());
     if (IsAt(target)) return true;
+    if (const std::optional<Cause> friction = FrictionEnds(model).At(point_))
+      return EndBy(EndReason::kPathEnd, *friction);
     if (const std::optional<Cause> escape =
             Escape({request_, model, point_, before, target, largest_reaction_.of_trace, largest_load_, may_snap_}))
       return EndBy(EndReason::kPathEnd, *escape);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/path/friction_end.h"
 #include "contact_path/path/recorder.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/change_units.h"
@@ -151,6 +152,7 @@ ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, st
   }
   for (const Samples& samples : request.options.at)
     Add(model, request, stage, setting, system, samples.quantity, samples.Values(), 0.0, -1, &targets);
+  FrictionEnds(model).AddTo(&targets);
   return targets;
 }
 

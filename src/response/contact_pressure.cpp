@@ -62,7 +62,8 @@ PressureProblem::PressureProblem(const Scene& scene, const SceneIndex& index, co
     }
 }
 
-Pressures PressureProblem::At(const Eigen::VectorXd& values, const PathPoint& point) const {
+Pressures PressureProblem::At(const Eigen::VectorXd& values, const PathPoint& point,
+                              const std::vector<double>& rt) const {
   Pressures pressures;
   pressures.contacts.resize(boundary_of_.size());
   pressures.widths.resize(num_boundaries_);
@@ -84,7 +85,7 @@ Pressures PressureProblem::At(const Eigen::VectorXd& values, const PathPoint& po
     ContactPressure& of = pressures.contacts[i];
     if (!(of.length > 0.0)) continue;
     of.pressure = scaling_.force * NormalReaction(point, i) / of.length;
-    of.traction = scaling_.force * TangentialReaction(point, i) / of.length;
+    of.traction = scaling_.force * rt[i] / of.length;
     if (StateOf(point, i) != ContactState::kOpen) pressures.widths[boundary_of_[i]] += of.length;
   }
   return pressures;

@@ -77,11 +77,12 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
     const double rn = NormalReaction(point, i), rt = TangentialReaction(point, i);
     if (rn == 0.0 && rt == 0.0) continue;
     contacts_[i]->Evaluate(u, point.s, point.modes[i].piece, {}, &at);
+    const double along = rt * at[kTangent].factor;
     const std::array<Coordinate, 2> node = released_.PointOf(static_cast<int>(nodes_[i])).frame.origin;
     Eigen::Vector2d on_node = Eigen::Vector2d::Zero();
     for (std::size_t j = 0; j < at.dofs.size(); ++j) {
       const auto entry = static_cast<Eigen::Index>(j);
-      const double force = rn * at[kNormal].factor * at[kNormal].gradient[entry] + rt * at[kTangent].factor * at[kTangent].gradient[entry];
+      const double force = rn * at[kNormal].factor * at[kNormal].gradient[entry] + along * at[kTangent].gradient[entry];
       missing[at.dofs[j]] -= force;
       for (const int axis : {0, 1})
         if (at.dofs[j] == node[static_cast<std::size_t>(axis)].dof) on_node[axis] = force;
@@ -92,7 +93,7 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
     sum.ry += scaling_.force * on_node.y();
     sum.rm +=
         scaling_.force * scaling_.length *
-        (Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node) + radii_[i] * rt);
+        (Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node) + radii_[i] * along);
   }
   for (std::size_t k = 0; k < pins_.size(); ++k) {
     pins_[k]->Evaluate(u, point.s, 0, {}, &at);

@@ -24,7 +24,8 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 28U;    // some times as ma
 std::size_t ProgramEntries(const std::vector<contact_path_msgs::Stage>& program) {
   std::size_t entries = program.size();
   for (const contact_path_msgs::Stage& stage : program)
-    entries += stage.loads.size() + stage.support_motions.size() + stage.obstacle_motions.size();
+    entries += stage.loads.size() + stage.support_motions.size() + stage.obstacle_motions.size() +
+               stage.friction_changes.size();
   return entries;
 }
 
@@ -56,7 +57,7 @@ template <typename Part>
 Bound LimitOf(const TraceLimits& limits) {
   if constexpr (std::is_same_v<Part, Node>) return {names::kMaxNodes, limits.max_nodes};
   if constexpr (std::is_same_v<Part, Obstacle> || std::is_same_v<Part, ObstacleMotion> ||
-                std::is_same_v<Part, ContactCandidate>)
+                std::is_same_v<Part, FrictionChange> || std::is_same_v<Part, ContactCandidate>)
     return {names::kMaxContacts, limits.max_contacts};
   return {names::kMaxElements, limits.max_elements};
 }

@@ -45,7 +45,10 @@ void LoadingRules::CheckSceneLoads() {
   CheckWhatMoves();
 }
 
-void LoadingRules::CheckSceneMotions() { CheckMotions(kScene, 0, scene_.support_motions, scene_.obstacle_motions); }
+void LoadingRules::CheckSceneMotions() {
+  CheckMotions(kScene, 0, scene_.support_motions, scene_.obstacle_motions);
+  CheckFrictionChanges(kScene, scene_.friction_changes);
+}
 
 void LoadingRules::CheckLoads(const KeyPath& where, std::size_t loading, const std::vector<Load>& loads) {
   const KeyPath list = where.Key("loads");
@@ -75,11 +78,11 @@ void LoadingRules::CheckWhatMoves() {
                      "must be true where there is a program: loads that a load factor scales belong to a stage");
     return;
   }
-  CheckMachine(kScene, scene_.loads, scene_.support_motions, scene_.obstacle_motions);
-  if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(scene_.loads) &&
-      scene_.support_motions.empty() && scene_.obstacle_motions.empty()) {
+  CheckMachine(kScene, scene_);
+  if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(scene_.loads) && !IsDriven(scene_)) {
     checker_.Add(list, scene_.loads.empty() ? "[]" : "no net force",
-                 "a load that is not constant must act on a free component, or a support or an obstacle must move");
+                 "a load that is not constant must act on a free component, a support or an obstacle must move, or "
+                 "friction must change");
   }
 }
 
@@ -91,6 +94,9 @@ void LoadingRules::CheckProgram() {
   if (program && !scene_.obstacle_motions.empty())
     checker_.Add(kScene.Key("obstacle_motions"), "",
                  "must be empty where there is a program: motions belong to its stages");
+  if (program && !scene_.friction_changes.empty())
+    checker_.Add(kScene.Key("friction_changes"), "",
+                 "must be empty where there is a program: they belong to its stages");
   const KeyPath list("program");
   for (std::size_t i = 0; i < checker_.Request().program.size(); ++i) CheckStage(list[i], i);
 }
@@ -105,12 +111,13 @@ void LoadingRules::CheckStage(const KeyPath& path, std::size_t number) {
       checker_.Add(loads[checker_.LoadPlace(number + 1, k)].Key("constant"), "true",
                    "must be false: constant loads belong to the scene");
   CheckMotions(path, number + 1, stage.support_motions, stage.obstacle_motions);
-  CheckMachine(path, stage.loads, stage.support_motions, stage.obstacle_motions);
+  CheckFrictionChanges(path, stage.friction_changes);
+  CheckMachine(path, stage);
   if (stage.unload)
     CheckUnloading(path, stage, sound);
-  else if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(stage.loads) &&
-           stage.support_motions.empty() && stage.obstacle_motions.empty())
-    checker_.Add(path, stage.name, "a load must act on a free component, or a support or an obstacle must move");
+  else if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(stage.loads) && !IsDriven(stage))
+    checker_.Add(path, stage.name,
+                 "a load must act on a free component, a support or an obstacle must move, or friction must change");
   NoteBroughtOn(stage);
   for (const ObstacleMotion& motion : stage.obstacle_motions)
     if (motion.turn != 0.0) turned_ = motion.obstacle;
@@ -121,6 +128,7 @@ void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool 
   if (!stage.loads.empty()) checker_.Add(path.Key("loads"), "", rule);
   if (!stage.support_motions.empty()) checker_.Add(path.Key("support_motions"), "", rule);
   if (!stage.obstacle_motions.empty()) checker_.Add(path.Key("obstacle_motions"), "", rule);
+  if (!stage.friction_changes.empty()) checker_.Add(path.Key("friction_changes"), "", rule);
   if (!turned_.empty())
     checker_.Add(
         path.Key("unload"), "true",
@@ -130,12 +138,13 @@ void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool 
                  "must be from 0 to 1 where the stage unloads: the part that is taken back, 0 = all");
   if (checker_.NothingFound() && brought_on_.IsNothing())
     checker_.Add(path.Key("unload"), "true",
-                 "the stages before must have left a load or a motion that can be taken back");
-  const bool moved = brought_on_.Has(BroughtOn::Kind::kSupport) || brought_on_.Has(BroughtOn::Kind::kObstacle);
+                 "the stages before must have left a load, a motion or a change of friction that can be taken back");
+  const bool moved = brought_on_.Has(BroughtOn::Kind::kSupport) || brought_on_.Has(BroughtOn::Kind::kObstacle) ||
+                     brought_on_.Has(BroughtOn::Kind::kFriction);
   if (checker_.Request().options.machine_stiffness > 0.0 && moved && brought_on_.Has(BroughtOn::Kind::kLoad))
     checker_.Add(path.Key("unload"), "true",
                  "must be false where loads and motions are taken back and a machine loads the structure "
-                 "(machine_stiffness): a stage has a machine or motions");
+                 "(machine_stiffness): a stage has a machine, or motions or changes of friction");
 }
 
 void LoadingRules::NoteBroughtOn(const Stage& stage) {
@@ -155,6 +164,8 @@ void LoadingRules::NoteBroughtOn(const Stage& stage) {
     add(BroughtOn::Kind::kSupport, checker_.Index().Node(motion.node), {motion.dx, motion.dy, motion.rotation});
   for (const ObstacleMotion& motion : stage.obstacle_motions)
     add(BroughtOn::Kind::kObstacle, checker_.Index().Obstacle(motion.obstacle), {motion.dx, motion.dy, motion.turn});
+  for (const FrictionChange& change : stage.friction_changes)
+    add(BroughtOn::Kind::kFriction, checker_.Index().Obstacle(change.obstacle), {change.rate, 0.0, 0.0});
 }
 
 bool LoadingRules::CheckMotion(const KeyPath& path, double dx, double dy, double turn, const char* name_of_turn) {
@@ -166,15 +177,42 @@ bool LoadingRules::CheckMotion(const KeyPath& path, double dx, double dy, double
   return false;
 }
 
-void LoadingRules::CheckMachine(const KeyPath& where, const std::vector<Load>& loads,
-                                const std::vector<SupportMotion>& supports,
-                                const std::vector<ObstacleMotion>& obstacles) {
-  const bool loaded = std::any_of(loads.begin(), loads.end(), [](const Load& load) { return !load.constant; });
-  if (!(checker_.Request().options.machine_stiffness > 0.0) || !loaded || (supports.empty() && obstacles.empty()))
-    return;
+template <typename Loading>
+void LoadingRules::CheckMachine(const KeyPath& where, const Loading& of) {
+  const bool loaded = std::any_of(of.loads.begin(), of.loads.end(), [](const Load& load) { return !load.constant; });
+  if (!(checker_.Request().options.machine_stiffness > 0.0) || !loaded || !IsDriven(of)) return;
+  const char* const list = !of.support_motions.empty()    ? "support_motions"
+                           : !of.obstacle_motions.empty() ? "obstacle_motions"
+                                                          : "friction_changes";
   checker_.Add(
-      where.Key(supports.empty() ? "obstacle_motions" : "support_motions"), "",
-      "must be empty where a machine loads the structure (machine_stiffness): a stage has a machine or motions");
+      where.Key(list), "",
+      "must be empty where a machine loads the structure (machine_stiffness): a stage has a machine, or motions "
+      "or changes of friction");
+}
+
+void LoadingRules::CheckFrictionChanges(const KeyPath& where, const std::vector<FrictionChange>& changes) {
+  std::unordered_set<std::string_view> changed;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const FrictionChange& change = changes[i];
+    const KeyPath path = where.Key("friction_changes")[i];
+    checker_.CheckFields(path, change);
+    if (!changed.insert(change.obstacle).second)
+      checker_.Add(path.Key("obstacle"), change.obstacle, "must not be repeated");
+    if (std::abs(change.rate) < kSmallestInput)
+      checker_.Add(path.Key("rate"), NumberText(change.rate), "must not be 0 (at least 1e-100)");
+    const Obstacle* const obstacle = checker_.KnownObstacle(change.obstacle);
+    if (obstacle == nullptr) continue;
+    bool touched = false;
+    for (const ContactCandidate& contact : scene_.contacts) {
+      if (contact.OnSurface() || contact.obstacle != change.obstacle) continue;
+      touched = true;
+      if (contact.FrictionWith(*obstacle) > 0.0) continue;
+      checker_.Add(path.Key("obstacle"), change.obstacle,
+                   "must have friction > 0 at load factor 0, or its contact " + contact.Name() + " must");
+      break;
+    }
+    if (!touched) checker_.Add(path.Key("obstacle"), change.obstacle, "must be the obstacle of a contact");
+  }
 }
 
 void LoadingRules::CheckMotions(const KeyPath& where, std::size_t loading, const std::vector<SupportMotion>& supports,

@@ -47,12 +47,13 @@ std::vector<double> SharesBefore(const std::vector<Stage>& program, std::size_t 
   return shares;
 }
 
-// The numbers of a load or a motion.
+// The numbers of a load, a motion or a change of friction.
 std::array<double*, 3> NumbersOf(Load* load) { return {&load->fx, &load->fy, &load->moment}; }
 std::array<double*, 3> NumbersOf(SupportMotion* motion) { return {&motion->dx, &motion->dy, &motion->rotation}; }
 std::array<double*, 3> NumbersOf(ObstacleMotion* motion) { return {&motion->dx, &motion->dy, &motion->turn}; }
+std::array<double*, 1> NumbersOf(FrictionChange* change) { return {&change->rate}; }
 
-// A load or a motion at a share of its size.
+// A load, a motion or a change of friction at a share of its size.
 template <typename Part>
 Part Times(double share, Part part) {
   for (double* const number : NumbersOf(&part)) *number *= share;
@@ -93,6 +94,13 @@ void Move(double share, const ObstacleMotion& motion, Obstacle* obstacle) {
     Rotate(angle, &obstacle->points[i], &obstacle->points[i + 1]);
 }
 
+// The friction of an obstacle, and of its contacts that have their own.
+void Change(double by, Obstacle* obstacle, std::vector<ContactCandidate>* contacts) {
+  obstacle->friction += by;
+  for (ContactCandidate& contact : *contacts)
+    if (contact.obstacle == obstacle->name && contact.friction > 0.0) contact.friction += by;
+}
+
 // Configuration::slip_origins of the stage.
 std::vector<double> SlipOrigins(const TraceRequest& request, const SceneIndex& index, std::size_t stage) {
   std::vector<double> origins;
@@ -112,7 +120,7 @@ std::vector<double> SlipOrigins(const TraceRequest& request, const SceneIndex& i
   return origins;
 }
 
-// Loads and obstacle motions of all stages before `stage`.
+// Loads, obstacle motions and changes of friction of all stages before `stage`.
 void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIndex& index, Scene* scene) {
   const std::vector<double> shares = SharesBefore(program, stage);
   for (std::size_t i = 0; i < stage; ++i) {
@@ -121,10 +129,13 @@ void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIn
     for (const Load& load : program[i].loads) scene->loads.push_back(Times(share, load, /*constant=*/true));
     for (const ObstacleMotion& motion : program[i].obstacle_motions)
       Move(share, motion, &scene->obstacles[index.Obstacle(motion.obstacle)]);
+    for (const FrictionChange& change : program[i].friction_changes)
+      Change(share * change.rate, &scene->obstacles[index.Obstacle(change.obstacle)], &scene->contacts);
   }
 }
 
-// Adds factor * motion to the motion of the same support or obstacle. places: of the motions in `sums`, by name.
+// Adds factor * motion to the motion of the same support or obstacle, or to the change of its friction. places: of what
+// is in `sums`, by name.
 template <typename Motion>
 void AddMotion(std::string_view name, const Motion& motion, double factor,
                std::unordered_map<std::string_view, std::size_t>* places, std::vector<Motion>* sums) {
@@ -134,15 +145,20 @@ void AddMotion(std::string_view name, const Motion& motion, double factor,
     for (double* const number : NumbersOf(&sums->back())) *number = 0.0;
   }
   Motion part = Times(factor, motion);
-  const std::array<double*, 3> sum = NumbersOf(&(*sums)[at->second]), more = NumbersOf(&part);
+  const auto sum = NumbersOf(&(*sums)[at->second]), more = NumbersOf(&part);
   for (std::size_t i = 0; i < sum.size(); ++i) *sum[i] += *more[i];
 }
 
-// With the loads and motions of a stage.
-void SetLoading(const Stage& stage, Scene* scene) {
-  scene->loads = stage.loads;
+void SetMotions(const Stage& stage, Scene* scene) {
   scene->support_motions = stage.support_motions;
   scene->obstacle_motions = stage.obstacle_motions;
+  scene->friction_changes = stage.friction_changes;
+}
+
+// With the loads, motions and changes of friction of a stage.
+void SetLoading(const Stage& stage, Scene* scene) {
+  scene->loads = stage.loads;
+  SetMotions(stage, scene);
 }
 
 // The scene with the loads and motions of one stage at its target.
@@ -163,7 +179,7 @@ Stage StageAsTraced(const TraceRequest& request, std::size_t stage) {
   Stage traced = request.program[stage];
   if (!traced.unload) return traced;
   const std::vector<double> shares = SharesBefore(request.program, stage);
-  std::unordered_map<std::string_view, std::size_t> supports, obstacles;
+  std::unordered_map<std::string_view, std::size_t> supports, obstacles, changed;
   for (std::size_t i = 0; i < stage; ++i) {
     if (shares[i] == 0.0) continue;
     const Stage& before = request.program[i];
@@ -172,6 +188,8 @@ Stage StageAsTraced(const TraceRequest& request, std::size_t stage) {
       AddMotion(motion.node, motion, -shares[i], &supports, &traced.support_motions);
     for (const ObstacleMotion& motion : before.obstacle_motions)
       AddMotion(motion.obstacle, motion, -shares[i], &obstacles, &traced.obstacle_motions);
+    for (const FrictionChange& change : before.friction_changes)
+      AddMotion(change.obstacle, change, -shares[i], &changed, &traced.friction_changes);
   }
   return traced;
 }
@@ -182,8 +200,7 @@ Scene StageScene(const TraceRequest& request, const SceneIndex& index, std::size
   BringOn(request.program, stage, index, &scene);
   const Stage now = StageAsTraced(request, stage);
   scene.loads.insert(scene.loads.end(), now.loads.begin(), now.loads.end());
-  scene.support_motions = now.support_motions;
-  scene.obstacle_motions = now.obstacle_motions;
+  SetMotions(now, &scene);
   return scene;
 }
 

@@ -111,7 +111,7 @@ class ContactRules {
 // back. Takes time in proportion to what is added.
 class BroughtOn {
  public:
-  enum class Kind { kLoad, kSupport, kObstacle };
+  enum class Kind { kLoad, kSupport, kObstacle, kFriction };
 
   // part: the place of the node or obstacle.
   void Add(Kind kind, std::size_t part, int component, double value);
@@ -143,9 +143,10 @@ class LoadingRules {
   // loading: as of Checker::LoadPlace.
   void CheckLoads(const KeyPath& where, std::size_t loading, const std::vector<Load>& loads);
   void CheckWhatMoves();
-  // A machine and motions in one stage have no one path parameter.
-  void CheckMachine(const KeyPath& where, const std::vector<Load>& loads, const std::vector<SupportMotion>& supports,
-                    const std::vector<ObstacleMotion>& obstacles);
+  // A machine, and motions or changes of friction, in one stage have no one path parameter. Loading: Scene or Stage.
+  template <typename Loading>
+  void CheckMachine(const KeyPath& where, const Loading& of);
+  void CheckFrictionChanges(const KeyPath& where, const std::vector<FrictionChange>& changes);
   void CheckMotions(const KeyPath& where, std::size_t loading, const std::vector<SupportMotion>& supports,
                     const std::vector<ObstacleMotion>& obstacles);
   void CheckSupportMotion(const KeyPath& path, const SupportMotion& motion, std::unordered_set<std::string>* moved);

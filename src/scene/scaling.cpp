@@ -165,6 +165,13 @@ double MotionNorm(const Scene& scene, double length = 1.0) {
   return std::sqrt(OrderedSum(std::move(squares)));
 }
 
+// Euclidean norm of the rates of all coefficients of friction.
+double ChangeNorm(const Scene& scene) {
+  std::vector<double> squares;
+  for (const FrictionChange& change : scene.friction_changes) squares.push_back(change.rate * change.rate);
+  return std::sqrt(OrderedSum(std::move(squares)));
+}
+
 // sqrt(sum K_ij^2 / rows) over all linear parts [force/length]. The Frobenius norm does not change by rotation.
 double MeanStiffness(const Scene& scene) {
   std::vector<double> squares;
@@ -321,6 +328,8 @@ double ForceOfElements(const Scene& scene, const SceneIndex& index, double loads
 
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force) {
   const double load = LoadNorm(scene, index, false, length), motion = MotionNorm(scene, length);
+  if (const double change = ChangeNorm(scene); change > 0.0)
+    return 1.0 / std::hypot(load / force, motion / length, change);
   return motion > 0.0 ? 1.0 / std::hypot(load / force, motion / length) : force / load;
 }
 

@@ -63,6 +63,11 @@ void CheckOptions(Checker* checker) {
   }
   if (!options.LocatesEvents() && !checker->GetScene().pins.empty())
     checker->Add(path.Key("method"), "mpec", "must be branch in a scene with pins");
+  const std::vector<Stage>& program = checker->Request().program;
+  if (!options.LocatesEvents() &&
+      (!checker->GetScene().friction_changes.empty() ||
+       std::any_of(program.begin(), program.end(), [](const Stage& stage) { return !stage.friction_changes.empty(); })))
+    checker->Add(path.Key("method"), "mpec", "must be branch where friction changes with the load factor");
   if (const std::vector<Obstacle>& obstacles = checker->GetScene().obstacles;
       options.friction_law == FrictionLaw::kTotal &&
       std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) { return !obstacle.body.empty(); }))

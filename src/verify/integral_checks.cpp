@@ -88,7 +88,7 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
   double given = 0.0;
   for (std::size_t i = 0; i < increment.contacts.size(); ++i)
     if (before.contacts[i].state != increment.contacts[i].state)
-      given += stage_.check.Give(i) * std::pow(increment.contacts[i].rt, 2) / stage_.Energy();
+      given += stage_.check.Give(i) * std::pow(stage_.check.GivesTo(i, ends[1]), 2) / stage_.Energy();
   open_ += given;
   findings_.Bound("energies of the increment are out of balance, over F L", imbalance,
                   kEnergy * exchanged + given +
@@ -259,8 +259,9 @@ void IntegralChecks::CheckEnergy(const Increment& start, const Increment& increm
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
     const ContactRecord& contact = increment.contacts[i];
     // What contacts that give way have stored may be lost where one begins to slide.
-    if (increment.kind != IncrementKind::kRegular)
-      given_ += stage_.check.Give(i) * (contact.rn * contact.rn + contact.rt * contact.rt) / unit;
+    if (increment.kind != IncrementKind::kRegular && stage_.check.Give(i) > 0.0)
+      given_ += stage_.check.Give(i) *
+                (contact.rn * contact.rn + std::pow(stage_.check.GivesTo(i, StateOf(increment)), 2)) / unit;
     reactions += std::abs(contact.rn);
     if (contact.gap > kExact * stage_.scaling.length) left_open += std::hypot(contact.rn, contact.rt);
   }

@@ -87,7 +87,8 @@ void PointChecks::CheckState(const Increment& before, const Increment& at, bool 
     if (stage_.configuration.HasTotalLaw() && stage_.contacts[i].friction > 0.0)
       slip = stage_.check.TotalSlip(i, to);
     else if (in_one_piece)
-      slip = stage_.check.Slip(i, from, to) + stage_.check.Give(i) * (to.rt[i] - from.rt[i]);
+      slip = stage_.check.Slip(i, from, to) +
+             stage_.check.Give(i) * (stage_.check.GivesTo(i, to) - stage_.check.GivesTo(i, from));
     CheckContact(i, at.contacts[i], to, slip / stage_.scaling.length, tolerance, tolerance_of_slip);
   }
   if (at.solve.exact) CheckSoftContacts(at);
@@ -171,11 +172,12 @@ void PointChecks::CheckRecorded(const Increment& increment, const Residuals& res
   same("cone residual", increment.residuals.cone, residuals.cone);
   same("support residual", increment.residuals.support, residuals.support);
   if (with_law) same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
+  const CheckedState state = StateOf(increment);
   double given = 0.0;  // to contacts and pins that give way
   for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
     const ContactRecord& contact = increment.contacts[i];
     const double rt = contact.state == ContactState::kStick ? contact.rt : 0.0;
-    given += 0.5 * stage_.check.Give(i) * (contact.rn * contact.rn + rt * rt);
+    given += 0.5 * stage_.check.Give(i) * (contact.rn * contact.rn + rt * stage_.check.GivesTo(i, state));
   }
   for (std::size_t i = 0; i < increment.pins.size(); ++i)
     given += 0.5 * stage_.check.GiveOfPin(i) * (std::pow(increment.pins[i].rx, 2) + std::pow(increment.pins[i].ry, 2));

@@ -65,7 +65,7 @@ struct VerifiedStage {
 
   double Energy() const { return scaling.force * scaling.length; }  // characteristic [force length]
 
-  bool Driven() const { return !scene.support_motions.empty() || !scene.obstacle_motions.empty(); }
+  bool Driven() const { return IsDriven(scene); }
 
   const SceneIndex& index;
   const Scene scene;

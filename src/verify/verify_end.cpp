@@ -14,6 +14,8 @@
 namespace contact_path {
 namespace {
 
+constexpr double kFrictionLeft = 2e-6;  // of that at the load factor 0
+
 bool ProgramDone(const TraceRequest& request, const Increment& last) {
   return last.stage == static_cast<int>(request.program.size()) && AtTarget(request, last);
 }
@@ -44,6 +46,19 @@ bool Escapes(const TraceRequest& request, const std::vector<Increment>& incremen
   return last.load_factor * target < 0.0 && std::abs(last.load_factor) > std::abs(target);
 }
 
+// Whether next to nothing is left of the friction of a contact.
+bool FrictionIsGone(const TraceRequest& request, const Increment& last) {
+  const Scene scene = StageScene(request, static_cast<std::size_t>(std::max(last.stage, 1) - 1));
+  const SceneIndex index(scene);
+  for (const FrictionChange& change : scene.friction_changes)
+    for (const ContactCandidate& contact : scene.contacts) {
+      if (contact.OnSurface() || contact.obstacle != change.obstacle) continue;
+      const double friction = contact.FrictionWith(scene.obstacles[index.Obstacle(change.obstacle)]);
+      if (friction + change.rate * last.load_factor <= kFrictionLeft * friction) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 std::string EndContradicted(const TraceRequest& request_given, const std::vector<Increment>& increments,
@@ -71,7 +86,7 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
     return last.index == wanted ? "" : says + "the request wants " + std::to_string(wanted) + " increments";
   }
   if (reason == "path_end") {
-    if (last.positions.empty() || Escapes(request, increments)) return {};
+    if (last.positions.empty() || Escapes(request, increments) || FrictionIsGone(request, last)) return {};
     if (!request.options.LocatesEvents()) return says + "increments by Ipopt cannot tell the end of a path";
     const bool parts = last.kind == IncrementKind::kStart || last.event.number > 0 || !last.event.branches.empty();
     return parts && last.event.taken == 0 ? "" : says + "the path goes on from the last increment";

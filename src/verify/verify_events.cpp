@@ -64,8 +64,7 @@ class EventVerifier {
     if (!request_.program.empty()) direction_ = request_.program[stage].Target() < 0.0 ? -1.0 : 1.0;
     relation_ = 0;
     const Scene scene = StageScene(request_, index_, stage);
-    const bool moves = !scene.support_motions.empty() || !scene.obstacle_motions.empty();
-    forward_ = request_.options.DrivesForward(moves || !request_.program.empty());
+    forward_ = request_.options.DrivesForward(IsDriven(scene) || !request_.program.empty());
     machine_ = request_.options.machine_stiffness > 0.0 &&
                std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) { return !load.constant; });
   }

@@ -126,6 +126,52 @@ TEST_F(RigidPairs, DerivativesOfHessiansMeetDifferences) {
   }
 }
 
+// Where friction changes with s: factor, force and its first two derivatives, and what a force works along.
+TEST_F(RigidPairs, ForcesOfFrictionThatChangesMeetDifferences) {
+  constexpr double kRn = 0.7, kRt = -0.4, kFriction = 0.3, kRate = 0.2;
+  const Eigen::Vector2d velocity(0.3, -0.2), about(0.4, 0.9);
+  const Eigen::Vector3d q(0.7, 0.6, 0.3);
+  const std::shared_ptr<const Surface> spline = MakeSpline({{-1.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {2.0, 0.5}}, false);
+  const std::shared_ptr<const Surface> plane =
+      std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 0.1), Eigen::Vector2d(-0.2, 1.0));
+  for (const auto& surface : {plane, spline})
+    for (const double turn : {0.0, 0.8}) {
+      const RigidPair pair(surface, MovingPlace::SeenFrom(MovedFrame(velocity, turn, about), PointOfNode(0, 1)),
+                           kFriction, Eigen::VectorXd(), std::nullopt, 0.0, {}, kRate);
+      const int patch = surface == plane ? 0 : 1;
+      const auto evaluate = [&](const Eigen::VectorXd& at) { return KinematicsAt(pair, at, at[2], patch); };
+      const auto force = [&](const Eigen::VectorXd& at) {
+        const PortsAt ports = evaluate(at);
+        return Eigen::VectorXd(kRn * ports[kNormal].gradient + kRt * ports[kTangent].factor * ports[kTangent].gradient);
+      };
+      const auto change = [&](const Eigen::VectorXd& at) { return evaluate(at).ForceChange({kRn, kRt}); };
+      const Eigen::VectorXd direction = random_.Vector(3, -1.0, 1.0), bend = random_.Vector(3, -1.0, 1.0);
+      EXPECT_NEAR(evaluate(q)[kTangent].factor, 1.0 + kRate * q[2] / kFriction, kRounding);
+      EXPECT_NEAR(pair.OnRecord(q, q[2], kRt), kRt * evaluate(q)[kTangent].factor, kRounding);
+      EXPECT_NEAR(pair.FromRecord(q, q[2], pair.OnRecord(q, q[2], kRt)), kRt, kRounding);
+      EXPECT_TRUE(IsJacobian(force, q, change(q).transpose(), kDerivativeTolerance, 1e-3));
+      LawMatrix hessian;
+      pair.ForceHessian(q, q[2], patch, {kRn, kRt}, direction, &hessian);
+      const auto weighted = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd(change(at) * direction); };
+      EXPECT_TRUE(IsJacobian(weighted, q, hessian, kDerivativeTolerance, 1e-3));
+      const auto along = [&](const Eigen::VectorXd& h) {
+        return Eigen::VectorXd(change(q + h[0] * direction).transpose() * direction);
+      };
+      const LawVector second = pair.SecondDirectional(q, q[2], patch, {kRn, kRt}, direction);
+      EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), second, kDerivativeTolerance, 1e-3));
+      const Eigen::Vector3d factor = pair.FactorAlong(kTangent, q, q[2], patch, direction, bend);
+      const auto rate = [&](const Eigen::VectorXd& h) {
+        const PortsAt at = evaluate(q + h[0] * direction + 0.5 * h[0] * h[0] * bend);
+        return Eigen::Vector2d(at[kTangent].factor, at[kTangent].factor_gradient.dot(direction + h[0] * bend));
+      };
+      EXPECT_NEAR(factor[0], evaluate(q)[kTangent].factor, kRounding);
+      EXPECT_TRUE(IsJacobian(rate, Eigen::VectorXd::Zero(1), factor.tail<2>(), kDerivativeTolerance, 1e-3));
+      const double step = 1e-4, ds = step * direction[2];
+      EXPECT_NEAR(pair.Travel(kTangent, q, q[2], patch, step * direction.head(2), ds, patch) / step,
+                  pair.TravelRate(kTangent, q, q[2], patch, direction.head(2), direction[2]), 10.0 * step);
+    }
+}
+
 // A node that turns with its obstacle stays where it is on the surface.
 TEST_F(RigidPairs, WhatTurnsAndMovesWithTheObstacleStaysOnItsSurface) {
   const Eigen::Vector2d velocity(0.3, -0.2), about(0.4, 0.9), place(0.7, 0.6);

@@ -24,7 +24,7 @@ from contact_path.structure import expanded  # noqa: E402
 MESSAGES = {'nodes': 'Node', 'bars': 'Bar', 'superelements': 'Superelement', 'beams': 'Beam', 'materials': 'Material',
             'solids': 'Solid', 'groups': 'Group', 'surfaces': 'BoundarySurface', 'loads': 'Load', 'obstacles': 'Obstacle',
             'contacts': 'Contact', 'supports': 'Support', 'support_motions': 'SupportMotion', 'obstacle_motions': 'ObstacleMotion',
-            'bodies': 'RigidBody', 'tendons': 'Tendon', 'pins': 'Pin'}
+            'bodies': 'RigidBody', 'tendons': 'Tendon', 'pins': 'Pin', 'friction_changes': 'FrictionChange'}
 TYPES = {'string': 'str', 'float64': 'float', 'int32': 'int', 'bool': 'bool'}
 LISTS = {'string': 'Texts', 'float64': 'Numbers', 'int32': 'Integers', 'bool': 'Truths'}
 

@@ -385,7 +385,8 @@ TEST_P(ValidateProgramTest, ReportsTheBrokenRuleAlone) {
   }
 }
 
-const char kNothingLeft[] = "= true: the stages before must have left a load or a motion that can be taken back";
+const char kNothingLeft[] =
+    "= true: the stages before must have left a load, a motion or a change of friction that can be taken back";
 const BrokenProgram kPrograms[] = {
     {"Sound", [](auto&) {}, ""},
     {"Half", [](auto& p) { p[1].target = 0.5; }, ""},

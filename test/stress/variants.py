@@ -21,7 +21,7 @@ UNITS = {
     'loads': {'fx': FORCE, 'fy': FORCE, 'moment': (1, 1), 'px': (-1, 1), 'py': (-1, 1)},
     'obstacles': {'px': LENGTH, 'py': LENGTH, 'radius': LENGTH, 'points': LENGTH, 'fillet': LENGTH, 'fillets': LENGTH},
     'support_motions': {'dx': LENGTH, 'dy': LENGTH},
-    'obstacle_motions': {'dx': LENGTH, 'dy': LENGTH, 'about_x': LENGTH, 'about_y': LENGTH}}
+    'obstacle_motions': {'dx': LENGTH, 'dy': LENGTH, 'about_x': LENGTH, 'about_y': LENGTH}, 'friction_changes': {}}
 OF_QUANTITIES = {'x': LENGTH, 'y': LENGTH, 'gap': LENGTH, 'rn': FORCE, 'rt': FORCE}
 
 # What turns with the axes, and what moves with the origin, too.

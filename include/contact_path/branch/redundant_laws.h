@@ -29,6 +29,7 @@ class RedundantLaws {
   struct Holding {
     std::size_t law;
     std::vector<LawVector> gradients;  // by port
+    std::vector<double> factors;
   };
 
   bool AmongThese(const std::vector<Holding>& laws, const States& states) const;

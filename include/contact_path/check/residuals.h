@@ -116,6 +116,8 @@ class ResidualCheck {
   // it is in no loop.
   double Give(std::size_t contact) const;
   double GiveOfPin(std::size_t pin) const;
+  // The force that it gives way to along t: rt over the share that is left of its friction [force].
+  double GivesTo(std::size_t contact, const CheckedState& state) const;
   // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws
   // std::invalid_argument where the configuration has no slip_origins.
   double TotalSlip(std::size_t contact, const CheckedState& state) const;

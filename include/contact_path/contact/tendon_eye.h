@@ -15,8 +15,8 @@ namespace contact_path {
 // tendon is slack; port 1 has for its motion w, what has slid from the span before to the span behind [length], and a
 // force of which |force| <= N, with the factor tanh(mu phi / 2) (1 + N / (2 EA)): with the factor it is
 // T1 + T1^2 / (2 EA) - T2 - T2^2 / (2 EA), since a string that stretches slides faster where it bears more. Where
-// the tendon is nearly straight phi is rounded, phi + e ln(1 + exp(-2 phi / e)) with e = 1e-3, so that it has derivatives
-// there: from 0.02 on by nothing that shows.
+// the tendon is nearly straight phi is rounded, phi + e ln(1 + exp(-2 phi / e)) with e = 1e-3, so that it has
+// derivatives there: from 0.02 on by nothing that shows.
 class TendonEye : public ContactPair {
  public:
   // before, behind: of one tendon. slid: dof >= 0, of both. friction: mu > 0. force_unit: of the spans.
@@ -32,7 +32,10 @@ class TendonEye : public ContactPair {
                               const LawVector& second) const override;
   double Travel(std::size_t port, const Eigen::VectorXd& u, double s, int piece, const Eigen::VectorXd& du, double ds,
                 int piece_after) const override;
-  double Energy(const Mode& /*mode*/, const PortReals& /*forces*/) const override { return 0.0; }  // the spans have it
+  double EnergyAt(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& /*mode*/,
+                  const PortReals& /*forces*/) const override {
+    return 0.0;  // the spans have it
+  }
   // T1 - T2 of a force of port 1, and that force of T1 - T2.
   double OnRecord(const Eigen::VectorXd& u, double s, double force) const override;
   double FromRecord(const Eigen::VectorXd& u, double s, double reaction) const override;

@@ -104,7 +104,7 @@ class Law {
   // Whether its compliances are its own, and its forces functions of the place; otherwise compliances are there to make
   // reactions unique.
   bool Elastic() const { return traits_.elastic; }
-  // Whether Hessians can be other than zero.
+  // Whether Hessians can be other than zero, or factors other than 1.
   bool Curved() const { return traits_.curved; }
   // Whether its forces follow the motion since the start of the program, and not since the last increment. Verdicts of
   // stability do not cover it.
@@ -146,7 +146,10 @@ class Law {
   // Those of ports that are held and give way by a compliance of their own; the others are 0.
   PortReals CompliantForces(const Eigen::VectorXd& u, double s, const Mode& mode) const;
   // Stored in the compliance of its ports [force length].
-  virtual double Energy(const Mode& mode, const PortReals& forces) const;
+  double Energy(const Mode& mode, const PortReals& forces) const;
+  // The same at a place: a port with a factor stores compliance * factor * force^2 / 2. What changes the factor works
+  // on it (FixedModeSystem::DrivingForceAlong).
+  virtual double EnergyAt(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const;
 
   // References at a place from which an arc sets out.
   virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;

@@ -41,6 +41,8 @@ struct Model {
   CheckedState InSceneUnits(const PathPoint& point) const;
   // The inverse of InSceneUnits(), with one rounding, for an increment that has positions and contacts.
   PathPoint FromIncrement(const Increment& increment) const;
+  // r_t by contact, scaled.
+  std::vector<double> TangentialReactions(const PathPoint& point) const;
   // Of supports, obstacles and surfaces, in the units of the scene.
   Reactions ReactionsAt(const PathPoint& point) const;
   // Made when they are first asked for. Not by two threads at once.

@@ -66,6 +66,8 @@ inline constexpr Sentence kOpenBeyondTarget =
 inline constexpr Sentence kOpenAndDrifts =
     "every contact is open, and the structure as a whole drifts away without a load; with a stop criterion the path "
     "goes on";
+inline constexpr Sentence kFrictionEnds =
+    "the friction of obstacle <name> falls to 0 at load factor <digits>: beyond, it would be negative";
 
 // Steps and points that are refused.
 inline constexpr Sentence kNoIncrement = "no increment could be accepted, however short:";

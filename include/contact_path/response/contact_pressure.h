@@ -41,8 +41,8 @@ class PressureProblem {
   // scene.
   PressureProblem(const Scene& scene, const SceneIndex& index, const DofMap& dofs, const Scaling& scaling);
 
-  // values: Structure::AllValues() of the point.
-  Pressures At(const Eigen::VectorXd& values, const PathPoint& point) const;
+  // values: Structure::AllValues() of the point; rt: by contact, scaled.
+  Pressures At(const Eigen::VectorXd& values, const PathPoint& point, const std::vector<double>& rt) const;
 
  private:
   // Of two nodes, or of three, the last in the middle.

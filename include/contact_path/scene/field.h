@@ -42,6 +42,7 @@ constexpr Unit kMoment = {1, 1, 0};
 constexpr Unit kMomentRate = {1, 1, -1};
 constexpr Unit kTractionRate = {-1, 1, -1};  // force per length
 constexpr Unit kRotationRate = {0, 0, -1};   // [rad] per unit of the load factor
+constexpr Unit kRate = {0, 0, -1};           // of a number without unit
 }  // namespace units
 
 // The numbers that a field admits. All but the last must be finite and at most 1e100 in magnitude.

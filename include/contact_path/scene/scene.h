@@ -360,6 +360,19 @@ constexpr auto Fields(Of<ObstacleMotion>) {
       Member("about_x", &P::about_x).In(units::kLength), Member("about_y", &P::about_y).In(units::kLength));
 }
 
+// The coefficient of friction of all contacts with an obstacle is friction + rate x load factor, with `friction` of the
+// contact or of the obstacle.
+struct FrictionChange {
+  std::string obstacle;
+  double rate = 0.0;  // per unit of the load factor
+};
+
+template <typename P>
+constexpr auto Fields(Of<FrictionChange>) {
+  return std::tuple(Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle),
+                    Member("rate", &P::rate).In(units::kRate));
+}
+
 struct Scene {
   std::string name;
   std::vector<Node> nodes;
@@ -379,6 +392,7 @@ struct Scene {
   std::vector<RigidBody> bodies;
   std::vector<Tendon> tendons;
   std::vector<Pin> pins;
+  std::vector<FrictionChange> friction_changes;
 };
 
 template <typename P>
@@ -389,7 +403,8 @@ constexpr auto Fields(Of<Scene>) {
                     Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
                     Member("contacts", &P::contacts), Member("supports", &P::supports),
                     Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
-                    Member("bodies", &P::bodies), Member("tendons", &P::tendons), Member("pins", &P::pins));
+                    Member("bodies", &P::bodies), Member("tendons", &P::tendons), Member("pins", &P::pins),
+                    Member("friction_changes", &P::friction_changes));
 }
 
 // Calls visit(name, list) for each list of elements of a scene, parts that join `nodes` and hold them by forces, in the
@@ -415,6 +430,7 @@ struct Stage {
   // true: takes the loads and motions that the stages before have left back, in proportion to its load factor, from 0
   // to `target` <= 1; it has none of its own.
   bool unload = false;
+  std::vector<FrictionChange> friction_changes = {};
 
   double Target() const { return target == 0.0 ? 1.0 : target; }
 };
@@ -423,7 +439,14 @@ template <typename P>
 constexpr auto Fields(Of<Stage>) {
   return std::tuple(Member("name", &P::name), Member("loads", &P::loads),
                     Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
-                    Member("target", &P::target).In(units::kLoadFactor), Member("unload", &P::unload));
+                    Member("target", &P::target).In(units::kLoadFactor), Member("unload", &P::unload),
+                    Member("friction_changes", &P::friction_changes));
+}
+
+// Whether something else than loads goes with the load factor. Loading: Scene or Stage.
+template <typename Loading>
+bool IsDriven(const Loading& of) {
+  return !of.support_motions.empty() || !of.obstacle_motions.empty() || !of.friction_changes.empty();
 }
 
 struct TraceRequest {

@@ -12,7 +12,7 @@ _MAPS: Dict[str, Dict[str, str]] = {
     'options': OPTIONS, 'program': STAGE}
 _NESTED: Dict[str, Sequence[str]] = {
     'request': ('scene', 'options', 'program'), 'scene': tuple(PARTS), 'options': ('stop', 'at', 'branch_choices'),
-    'program': ('loads', 'support_motions', 'obstacle_motions')}
+    'program': ('loads', 'support_motions', 'obstacle_motions', 'friction_changes')}
 # Words of YAML, as contact_path_trace takes them.
 _TRUTH = {spelt: value for value, words in ((True, ('true', 'yes', 'on', '1')), (False, ('false', 'no', 'off', '0')))
           for word in words for spelt in (word, word.capitalize(), word.upper())}
