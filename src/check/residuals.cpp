@@ -14,6 +14,7 @@
 #include "check/boundary.h"
 #include "check/contacts.h"
 #include "check/elements.h"
+#include "check/pins.h"
 #include "check/plane.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/scene_index.h"
@@ -61,11 +62,6 @@ void RequireSize(const std::vector<double>& values, std::size_t size, const char
 
 // The scene with all names resolved; vectors in the order of the scene's lists.
 struct ResidualCheck::Prepared {
-  struct PreparedPin {
-    std::size_t first, second;  // nodes
-    Vector written;             // from the second to the first, rounding of what is written
-    bool gives = false;
-  };
   struct PreparedLoad {
     std::size_t node = 0;
     Real fx = 0.0L, fy = 0.0L, moment = 0.0L;
@@ -86,13 +82,7 @@ struct ResidualCheck::Prepared {
       start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
     }
     elements = check::MakeElements(scene, index, configuration.reference);
-    const std::vector<bool> in_loops = PinsInLoops(scene);
-    for (const Pin& pin : scene.pins) {
-      const std::size_t first = index.at(pin.nodes.at(0)), second = index.at(pin.nodes.at(1));
-      pins.push_back({first, second,
-                      NodePosition(configuration.reference, first) - NodePosition(configuration.reference, second),
-                      in_loops[pins.size()]});
-    }
+    pins.emplace(scene, index, configuration.reference);
     // Coordinates are rounded relative to their size.
     Real size = scaling.length;
     for (const double coordinate : configuration.start) size = std::max<Real>(size, std::abs(coordinate));
@@ -168,11 +158,7 @@ struct ResidualCheck::Prepared {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
       contacts[i]->AddForces(placed, state.rn[i], state.rt[i], -1.0L, &forces);
     }
-    for (std::size_t k = 0; k < pins.size(); ++k) {
-      const Vector on_first{state.pins[2 * k], state.pins[2 * k + 1]};
-      AddTo(&forces, pins[k].first, -1.0L * on_first);
-      AddTo(&forces, pins[k].second, on_first);
-    }
+    pins->TakeForces(state.pins, &forces);
     attached->GiveToBodies(values, &forces);
     return forces;
   }
@@ -182,7 +168,7 @@ struct ResidualCheck::Prepared {
     RequireSize(state.rotations, start.size() - num_positions, "rotations");
     RequireSize(state.rn, contacts.size(), "rn");
     RequireSize(state.rt, contacts.size(), "rt");
-    RequireSize(state.pins, 2 * pins.size(), "pins");
+    RequireSize(state.pins, 2 * pins->Count(), "pins");
   }
 
   Scaling scaling;
@@ -194,7 +180,7 @@ struct ResidualCheck::Prepared {
   Real largest_stiffness = 0.0L;  // of all nodes, as LargestStiffness()
   std::vector<double> rates;      // of the fixed ones, per unit of the load factor
   std::vector<std::unique_ptr<const check::Element>> elements;
-  std::vector<PreparedPin> pins;
+  std::optional<const check::Pins> pins;
   std::vector<PreparedLoad> loads;
   std::vector<std::unique_ptr<const check::Contact>> contacts;
   std::vector<Real> contact_units;
@@ -259,10 +245,9 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
       residuals.support =
           Worst(residuals.support, std::abs(static_cast<Real>(now.rotations[i]) - settled.rotations[i]));
   }
-  for (std::size_t k = 0; k < scene.pins.size(); ++k) {
-    const Prepared::PreparedPin& pin = scene.pins[k];
+  for (std::size_t k = 0; k < scene.pins->Count(); ++k) {
     const Vector given = static_cast<Real>(GiveOfPin(k)) * Vector{now.pins[2 * k], now.pins[2 * k + 1]};
-    Vector apart = NodePosition(now.positions, pin.first) - NodePosition(now.positions, pin.second) - pin.written;
+    Vector apart = scene.pins->Apart(k, now.positions);
     if (check::Length(given) <= kMostGiven * scaling.length) apart = apart + given;
     residuals.support = Worst(residuals.support, check::Length(apart) / scaling.length);
   }
@@ -381,7 +366,7 @@ double ResidualCheck::Give(std::size_t contact) const {
 
 double ResidualCheck::GiveOfPin(std::size_t pin) const {
   const Scaling& scaling = prepared_->scaling;
-  return prepared_->pins[pin].gives ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
+  return prepared_->pins->Gives(pin) ? static_cast<double>(kGive) * scaling.length / scaling.force : 0.0;
 }
 
 double ResidualCheck::Uncertain(const CheckedState& state) const {

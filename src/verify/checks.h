@@ -157,7 +157,7 @@ class IntegralChecks {
 
 // Of regular increments of structures of up to 400 components whose contacts are open, or stick to obstacles: such a
 // contact is a pin, and an equilibrium is stable if the stiffness of all other components is positive definite. Where
-// contacts slip, or touch surfaces that deform, the verdict is not looked at.
+// contacts slip, or touch surfaces that deform, and in scenes with pins, the verdict is not looked at.
 class StabilityChecks {
  public:
   // All must outlive the checks.
