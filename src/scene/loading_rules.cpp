@@ -192,10 +192,11 @@ void LoadingRules::CheckMachine(const KeyPath& where, const Loading& of) {
 }
 
 void LoadingRules::CheckFrictionChanges(const KeyPath& where, const std::vector<FrictionChange>& changes) {
+  const KeyPath list = where.Key("friction_changes");
   std::unordered_set<std::string_view> changed;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const FrictionChange& change = changes[i];
-    const KeyPath path = where.Key("friction_changes")[i];
+    const KeyPath path = list[i];
     checker_.CheckFields(path, change);
     if (!changed.insert(change.obstacle).second)
       checker_.Add(path.Key("obstacle"), change.obstacle, "must not be repeated");
