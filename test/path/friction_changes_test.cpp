@@ -338,23 +338,24 @@ TEST(FrictionChanges, ARollingDiscSlips) {
   }
 }
 
-// A node that a bar pulls over a bump whose friction changes: energies balance, and what is on record is proved.
+// A node that a bar pulls up in a bowl whose friction changes: energies balance, and what is on record is proved.
 TEST(FrictionChanges, OnCurves) {
-  for (const double rate : {-0.2, 0.4})
+  for (const double rate : {-0.2, 0.3})
     for (const double turn : {0.0, 0.1}) {
       SCOPED_TRACE(testing::Message() << "rate " << rate << ", turn " << turn);
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.name = "bump";
-      scene.nodes = {{"b", 0.0, 1.0}, {"top", -0.2, 3.0, true, true}, {"pull", 2.0, 1.0, true, true}};
-      scene.bars = {{{"b", "top"}, 1.0, 2.4}, {{"b", "pull"}, 2.0}};
-      scene.obstacles = {{"bump", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, 0.5, 1.0}};
-      scene.contacts = {{"b", "bump"}};
-      scene.support_motions = {{"pull", 1.0, 0.0}};
-      if (turn != 0.0) scene.obstacle_motions = {{"bump", 0.0, 0.0, turn}};
-      scene.friction_changes = {{"bump", rate}};
+      scene.name = "bowl";
+      scene.nodes = {{"b", 0.0, -2.0}, {"pull", 1.5, -2.0, true, true}};
+      scene.bars = {{{"b", "pull"}, 2.0}};
+      scene.obstacles = {{"bowl", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, 0.3, 2.0}};
+      scene.obstacles[0].inside = true;
+      scene.contacts = {{"b", "bowl"}};
       scene.loads = {OnNode("b", 0.0, -1.0, true)};
-      request.options.stop = {{"load_factor", ">", 0.9}};
+      scene.support_motions = {{"pull", 1.0, 0.2}};
+      if (turn != 0.0) scene.obstacle_motions = {{"bowl", 0.0, 0.0, turn}};
+      scene.friction_changes = {{"bowl", rate}};
+      request.options.stop = {{"load_factor", ">", 1.2}};
       const TracedPath path = TraceProved(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << EndOf(path);
       int slides = 0;
@@ -362,7 +363,7 @@ TEST(FrictionChanges, OnCurves) {
         const ContactRecord& contact = increment.contacts[0];
         if (!Slips(contact.state)) continue;
         ++slides;
-        EXPECT_NEAR(std::abs(contact.rt), (0.5 + rate * increment.load_factor) * contact.rn, kExact);
+        EXPECT_NEAR(std::abs(contact.rt), (0.3 + rate * increment.load_factor) * contact.rn, kExact);
       }
       EXPECT_GT(slides, 5);
       EXPECT_LT(EnergyImbalance(path), 1e-7);
