@@ -72,10 +72,10 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
   Eigen::VectorXd missing(released_.NumDofs());  // phi - s f - f_constant - T r
   released_.InternalForce(u, missing);
   missing -= point.s * released_.ReferenceLoad() + released_.ConstantLoad();
-  PortsAt at;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const double rn = NormalReaction(point, i), rt = TangentialReaction(point, i);
     if (rn == 0.0 && rt == 0.0) continue;
+    PortsAt at;
     contacts_[i]->Evaluate(u, point.s, point.modes[i].piece, {}, &at);
     const double along = rt * at[kTangent].factor;
     const std::array<Coordinate, 2> node = released_.PointOf(static_cast<int>(nodes_[i])).frame.origin;

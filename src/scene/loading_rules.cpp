@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "contact_path/scene/scaling.h"
 #include "contact_path/scene/surface.h"
 
 namespace contact_path {
@@ -191,10 +192,11 @@ void LoadingRules::CheckMachine(const KeyPath& where, const Loading& of) {
 }
 
 void LoadingRules::CheckFrictionChanges(const KeyPath& where, const std::vector<FrictionChange>& changes) {
+  const KeyPath list = where.Key("friction_changes");
   std::unordered_set<std::string_view> changed;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const FrictionChange& change = changes[i];
-    const KeyPath path = where.Key("friction_changes")[i];
+    const KeyPath path = list[i];
     checker_.CheckFields(path, change);
     if (!changed.insert(change.obstacle).second)
       checker_.Add(path.Key("obstacle"), change.obstacle, "must not be repeated");
@@ -213,6 +215,14 @@ void LoadingRules::CheckFrictionChanges(const KeyPath& where, const std::vector<
     }
     if (!touched) checker_.Add(path.Key("obstacle"), change.obstacle, "must be the obstacle of a contact");
   }
+  // Linear parts have the force of what acts on them.
+  const auto acts = [](const auto& of) {
+    return !of.loads.empty() || !of.support_motions.empty() || !of.obstacle_motions.empty();
+  };
+  const std::vector<Stage>& program = checker_.Request().program;
+  if (!changes.empty() && !scene_.superelements.empty() && !HasForceScale(scene_) && !acts(scene_) &&
+      std::none_of(program.begin(), program.end(), acts))
+    checker_.Add(kScene.Key("loads"), "[]", "must have a load that presses a contact where friction alone changes");
 }
 
 void LoadingRules::CheckMotions(const KeyPath& where, std::size_t loading, const std::vector<SupportMotion>& supports,

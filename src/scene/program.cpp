@@ -251,13 +251,14 @@ Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
   Scaling largest = CharacteristicScales(StageScene(request, index, 0), index);
   if (request.program.empty()) return largest;
   if (!HasForceScale(request.scene)) {
+    const Scaling of_first = largest;
     largest.force = 0.0;
     for (const Stage& stage : request.program) {
       if (stage.unload) continue;  // brings no force on
       const Scaling scaling = CharacteristicScales(LoadedAtTarget(stage, request.scene), index);
       if (scaling.force > largest.force) largest = scaling;
     }
-    return largest;
+    return largest.force > 0.0 ? largest : of_first;  // where friction alone changes
   }
   if (!request.scene.bars.empty()) return largest;
   // What has a target is as sure to come as what is constant.

@@ -16,7 +16,7 @@ namespace contact_path::friction_changes_test {
 namespace {
 
 constexpr double kExact = 1e-9;
-constexpr double kGives = 5e-8;   // contacts of bodies give way by 1e-8 of their forces
+constexpr double kGives = 2e-7;   // contacts of bodies give way by 1e-8 of their forces
 constexpr double kLeft = 1.1e-6;  // of the friction, where the path ends
 
 Load OnNode(const std::string& node, double fx, double fy, bool constant) {
@@ -125,7 +125,8 @@ TEST(FrictionChanges, ThePathEndsWhereFrictionIsGone) {
         TraceRequest request = Slider(units, 0.4, -0.5 * side);
         request.options.direction = side;
         if (floor_moves > 0.0) request.scene.obstacle_motions = {{"floor", units.length / units.load_factor, 0.0}};
-        const TracedPath path = TraceProved(request);
+        const TracedPath path = TraceIncrements(request);
+        ExpectNoFindings(path);
         EXPECT_EQ(path.result.reason, EndReason::kPathEnd) << EndOf(path);
         EXPECT_FALSE(path.result.reached);
         EXPECT_NE(path.result.message.find("the friction of obstacle floor falls to 0 at load factor "),
@@ -192,7 +193,8 @@ TEST(FrictionChanges, AStageDoesNotGoBeyondItsFriction) {
   request.program.resize(2);
   request.program[0].friction_changes = {{"floor", -0.4}};
   request.program[1].friction_changes = {{"floor", -0.2}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceIncrements(request);
+  ExpectNoFindings(path);
   EXPECT_EQ(path.result.reason, EndReason::kPathEnd) << EndOf(path);
   EXPECT_EQ(path.increments.back().stage, 2);
   EXPECT_NEAR(path.increments.back().load_factor, 0.5, kLeft);
@@ -311,7 +313,7 @@ TEST(FrictionChanges, ADiscSlipsOutOfAGrip) {
     }
 }
 
-// A disc on a floor under a moment M, held by a spring at its hub, slips where mu W = M / r.
+// A disc on a floor under a moment M, held by a spring at its hub, slips where mu W = M / r, and spins there.
 TEST(FrictionChanges, ARollingDiscSlips) {
   for (const double radius : {1e-3, 1.0, 1e3}) {
     SCOPED_TRACE(radius);
@@ -329,35 +331,41 @@ TEST(FrictionChanges, ARollingDiscSlips) {
     scene.contacts = {rolls};
     scene.loads = {OfBody("disc", 0.0, -1.0, -0.2 * radius)};
     scene.friction_changes = {{"floor", -0.25}};
-    request.options.at_limit = AtLimit::kStop;
+    request.options.max_increments = 60;
     const TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << EndOf(path);
-    EXPECT_NEAR(LargestLoadFactor(path), 1.2, kGives);
+    EXPECT_NEAR(LargestLoadFactor(path), 1.2, kGives) << EndOf(path);
     ExpectNoFindings(path);
   }
 }
 
-// A node that a bar pulls over a bump whose friction changes: energies balance, and what is on record is proved.
+// A node that a bar pulls up in a bowl whose friction changes: energies balance, and what is on record is proved.
 TEST(FrictionChanges, OnCurves) {
-  for (const double rate : {-0.2, 0.4})
+  for (const double rate : {-0.2, 0.3})
     for (const double turn : {0.0, 0.1}) {
       SCOPED_TRACE(testing::Message() << "rate " << rate << ", turn " << turn);
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.name = "bump";
-      scene.nodes = {{"b", 0.0, 1.0}, {"top", -0.2, 3.0, true, true}, {"pull", 2.0, 1.0, true, true}};
-      scene.bars = {{{"b", "top"}, 1.0, 2.4}, {{"b", "pull"}, 2.0}};
-      scene.obstacles = {{"bump", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, 0.5, 1.0}};
-      scene.contacts = {{"b", "bump"}};
-      scene.support_motions = {{"pull", 1.0, 0.0}};
-      if (turn != 0.0) scene.obstacle_motions = {{"bump", 0.0, 0.0, turn}};
-      scene.friction_changes = {{"bump", rate}};
-      request.options.stop = {{"load_factor", ">", 1.0}};
+      scene.name = "bowl";
+      scene.nodes = {{"b", 0.0, -2.0}, {"pull", 1.5, -2.0, true, true}};
+      scene.bars = {{{"b", "pull"}, 2.0}};
+      scene.obstacles = {{"bowl", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, 0.3, 2.0}};
+      scene.obstacles[0].inside = true;
+      scene.contacts = {{"b", "bowl"}};
+      scene.loads = {OnNode("b", 0.0, -1.0, true)};
+      scene.support_motions = {{"pull", 1.0, 0.2}};
+      if (turn != 0.0) scene.obstacle_motions = {{"bowl", 0.0, 0.0, turn}};
+      scene.friction_changes = {{"bowl", rate}};
+      request.options.stop = {{"load_factor", ">", 1.2}};
       const TracedPath path = TraceProved(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << EndOf(path);
-      const Increment& last = path.increments.back();
-      EXPECT_TRUE(Slips(last.contacts[0].state));
-      EXPECT_NEAR(std::abs(last.contacts[0].rt), (0.5 + rate) * last.contacts[0].rn, kExact);
+      int slides = 0;
+      for (const Increment& increment : path.increments) {
+        const ContactRecord& contact = increment.contacts[0];
+        if (!Slips(contact.state)) continue;
+        ++slides;
+        EXPECT_NEAR(std::abs(contact.rt), (0.3 + rate * increment.load_factor) * contact.rn, kExact);
+      }
+      EXPECT_GT(slides, 5);
       EXPECT_LT(EnergyImbalance(path), 1e-7);
     }
 }
@@ -384,6 +392,8 @@ TEST(FrictionChanges, WhatIsNotSoundIsRefusedByName) {
          r->scene.friction_changes[0].obstacle = "wall";
        },
        "scene.friction_changes[0].obstacle = wall: must be the obstacle of a contact"},
+      {[](TraceRequest* r) { r->scene.loads.clear(); },
+       "scene.loads = []: must have a load that presses a contact where friction alone changes"},
       {[](TraceRequest* r) { r->options.method = Method::kMpec; },
        "options.method = mpec: must be branch where friction changes with the load factor"},
       {[](TraceRequest* r) {
