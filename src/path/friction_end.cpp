@@ -18,7 +18,7 @@ FrictionEnds::FrictionEnds(const Model& model) : unknown_(model.structure.NumDof
   for (const FrictionChange& change : model.scene.friction_changes) {
     const Obstacle& obstacle = model.scene.obstacles[model.index.Obstacle(change.obstacle)];
     for (const ContactCandidate& contact : model.scene.contacts) {
-      if (contact.OnSurface() || contact.obstacle != change.obstacle) continue;
+      if (contact.OnSurface() || contact.at_eye || contact.obstacle != change.obstacle) continue;
       const double load_factor = -contact.FrictionWith(obstacle) / change.rate;
       const FrictionEnd end{change.obstacle, load_factor, (1.0 - kLeft) * load_factor / model.scaling.load_factor};
       auto beside = ends_.begin();  // on the same side
