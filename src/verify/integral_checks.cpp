@@ -210,6 +210,11 @@ Integral IntegralChecks::Work(const ThreeStates& states, const ThreePoints& rule
   }
   if (stage_.Driven())
     work.Add(rule.Of(along([&](const CheckedState& state) { return stage_.check.DrivingForce(state); }), load));
+  // What changes the friction of a contact that gives way works on what it stores.
+  for (std::size_t i = 0; i < stage_.contacts.size(); ++i)
+    if (const double give = stage_.check.Give(i);
+        give > 0.0 && stage_.check.Friction(i, states[0]) != stage_.check.Friction(i, states[1]))
+      work.open += give * std::abs(states[1].rt[i] * stage_.check.GivesTo(i, states[1]));
   return {work.value / stage_.Energy(), work.open / stage_.Energy(), work.force / stage_.scaling.force};
 }
 

@@ -274,6 +274,7 @@ TEST(FrictionChanges, ALadderSlipsWhereTheFloorNoLongerHoldsIt) {
         scene.loads = {OfBody("ladder", 0.0, -1.0)};
         scene.friction_changes = {{"floor", -1.0}};
         request.options.at_limit = AtLimit::kStop;
+        request.options.record = {"inner"};
         const TracedPath path = TraceIncrements(request);
         EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << EndOf(path);
         const double critical = 1.0 / (2.0 * std::tan(angle) + of_wall);

@@ -323,8 +323,8 @@ TEST(ReadSceneTest, RulesOnListsHaveTheLineOfTheList) {
       {"scene:\n" + nodes + "  bars: []\n" + loads,
        "f:5: scene.bars = []: at least one bar, superelement, beam, solid, tendon or pin is needed"},
       {"scene:\n" + nodes + bars,
-       "f:1: scene.loads = []: a load that is not constant must act on a free component, or a support or an obstacle "
-       "must move"},
+       "f:1: scene.loads = []: a load that is not constant must act on a free component, a support or an obstacle must "
+       "move, or friction must change"},
       {"scene:\n" + fixed + bars + loads,
        "f:2: scene.nodes = all fixed: at least one component of a node must be free"},
       {"~", "f:1: scene.nodes = []: at least one node is needed"},
