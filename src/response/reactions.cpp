@@ -96,6 +96,7 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
         (Moment(PlaceOf(nodes_[i], u) - Centre(boundaries_[boundary_of_[i]], u, point.s), on_node) + radii_[i] * along);
   }
   for (std::size_t k = 0; k < pins_.size(); ++k) {
+    PortsAt at;
     pins_[k]->Evaluate(u, point.s, 0, {}, &at);
     // The pins are the last of the laws.
     const Eigen::Index first = point.forces.size() - 2 * static_cast<Eigen::Index>(pins_.size() - k);
