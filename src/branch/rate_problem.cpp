@@ -219,7 +219,7 @@ std::optional<Limit> RateProblem::Broken(const States& states, const CondensedRa
         if (value > active.force * rule.unit) continue;
       } else {
         const Eigen::Index port = first_port_[k] + static_cast<Eigen::Index>(rule.port);
-        rate = rule.sign * rates.motion[port];
+        rate = rule.sign * (rates.motion[port] + rule.compliance * rates.force[port]);
       }
       if (sign * rate >= -tolerance * (rule.OfForces() ? force * rule.unit : 1.0)) continue;
       const Limit broken = {static_cast<int>(i), rule.id};
