@@ -45,6 +45,18 @@ class IndependentColumns {
   std::vector<Eigen::VectorXd> factors_;
 };
 
+// A^-1 B; nothing where A is singular. Rows and columns that are of other sizes, as those of ports that hardly give
+// way, do not make it so.
+std::optional<Eigen::MatrixXd> Solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
+  if (lu.rcond() > tolerances::kSingularPivot) return lu.solve(B);
+  const Eigen::VectorXd rows = A.rowwise().lpNorm<Eigen::Infinity>().cwiseInverse();
+  const Eigen::VectorXd columns = (rows.asDiagonal() * A).colwise().lpNorm<Eigen::Infinity>().cwiseInverse();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> even(rows.asDiagonal() * A * columns.asDiagonal());
+  if (!(even.rcond() > tolerances::kSingularPivot)) return std::nullopt;
+  return columns.asDiagonal() * even.solve(rows.asDiagonal() * B);
+}
+
 // When it is decided whether the motion of a port is given.
 enum Turn { kHeld, kAlone, kWithOther, kFree };
 
@@ -72,7 +84,8 @@ bool RateComplementarity::FindPairs(const RateProblem& rates) {
     for (std::size_t p = 0; p < law.NumPorts(); ++p)
       if (const PortRule& port = law.In(base).ports[p]; port.Holds()) {
         turn_[static_cast<std::size_t>(first) + p] = kHeld;
-        compliance_[first + static_cast<Eigen::Index>(p)] = port.compliance;
+        const Eigen::Index at = first + static_cast<Eigen::Index>(p);
+        compliance_[at] = port.compliance * rates.Springs()[at];
       }
     const std::size_t pairs_before = pairs_.size();
     for (const LimitRule& limit : law.In(base).limits) {
@@ -131,8 +144,9 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
 
 void RateComplementarity::Build(const RateProblem& rates) {
   const Eigen::Index size = rates.MotionRates().rows();
-  // v = A (r + v) + b s': springs of stiffness 1 are part of the condensed problem. With a compliance c the motion v
-  // stands for v + c r: v - A v - (A (1 - c) + c) r = b s'.
+  // v = A (r + v) + b s', r over the stiffness of the spring of the port: the springs are part of the condensed
+  // problem. With a compliance c, times that stiffness, the motion v stands for v + c r: v - A v - (A (1 - c) + c) r =
+  // b s'.
   const Eigen::MatrixXd A = rates.MotionRates().rightCols(size);
   const Eigen::VectorXd b = rates.MotionRates().col(0);
   const std::optional<std::vector<bool>> given = GivenMotions(A);
@@ -150,10 +164,12 @@ void RateComplementarity::Build(const RateProblem& rates) {
     else
       follows(d, d) += 1.0;
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(follows);
-  if (!(lu.rcond() > tolerances::kSingularPivot)) return;
-  Eigen::MatrixXd G = lu.solve(given_columns);
-  Eigen::VectorXd h = lu.solve(b);
+  Eigen::MatrixXd right(size, size + 1);
+  right << given_columns, b;
+  const std::optional<Eigen::MatrixXd> solved = Solved(follows, right);
+  if (!solved) return;
+  const Eigen::MatrixXd G = solved->leftCols(size);
+  Eigen::VectorXd h = solved->col(size);
 
   // Of two pairs of one port the second has its motion as a share of the port's.
   for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -180,10 +196,12 @@ void RateComplementarity::Build(const RateProblem& rates) {
     }
   }
   if (!D.isIdentity(0.0)) {
-    const Eigen::PartialPivLU<Eigen::MatrixXd> coupling(D);
-    if (!(coupling.rcond() > tolerances::kSingularPivot)) return;
-    Z = coupling.solve(Z);
-    d = coupling.solve(d);
+    Eigen::MatrixXd both(size, num_pairs + 1);
+    both << Z, d;
+    const std::optional<Eigen::MatrixXd> coupled = Solved(D, both);
+    if (!coupled) return;
+    Z = coupled->leftCols(num_pairs);
+    d = coupled->col(num_pairs);
   }
   Eigen::MatrixXd Y = G * Z;
   h += G * d;

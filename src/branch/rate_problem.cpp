@@ -12,9 +12,15 @@
 namespace contact_path {
 namespace {
 
-// Scaled stiffness of the springs: of the order of the structure's, so that neither is lost in rounding. Their forces
-// are part of the unknowns, and are taken out where forces of ports are wanted.
-constexpr double kSpring = 1.0;
+// Scaled stiffness of the spring of a port: of the order of the structure's, so that neither is lost in rounding, and
+// of a port that gives way by less the mean, by its logarithm, of that and of the port's own stiffness. The forces of
+// the springs are part of the unknowns, and are taken out where forces of ports are wanted.
+double SpringOf(const Law& law, std::size_t port) {
+  for (int state = 0; state < law.NumStates(); ++state)
+    if (const PortRule& rule = law.In(state).ports[port]; rule.Holds() && rule.compliance > 0.0)
+      return std::max(1.0, 1.0 / std::sqrt(rule.compliance));
+  return 1.0;
+}
 
 // A force stiffness . motion along a port with this gradient. matrix: transposed, nd components before the load factor.
 void AddSpring(const LawDofs& dofs, const LawVector& gradient, double stiffness, Eigen::Index nd,
@@ -54,6 +60,12 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
     first_port_.push_back(num_ports_);
     num_ports_ += static_cast<Eigen::Index>(law.NumPorts());
   }
+  springs_.resize(num_ports_);
+  for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
+    const Law& law = laws[static_cast<std::size_t>(weakly_active_[k])];
+    for (std::size_t p = 0; p < law.NumPorts(); ++p)
+      springs_[first_port_[k] + static_cast<Eigen::Index>(p)] = SpringOf(law, p);
+  }
   FixedModeSystem system(structure, laws);
   system.SetModes(base);
   const Eigen::VectorXd x = system.Pack(point);
@@ -71,7 +83,8 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
     for (std::size_t p = 0; p < law.NumPorts(); ++p) {
       for (Eigen::Index j = 0; j < modes_of_parts.cols(); ++j)
         free_(first_port_[k] + static_cast<Eigen::Index>(p), j) = at.Rate(at[p].gradient, modes_of_parts.col(j), 0.0);
-      AddSpring(at.dofs, at[p].gradient, kSpring * at[p].factor, nd, &transposed);
+      AddSpring(at.dofs, at[p].gradient, springs_[first_port_[k] + static_cast<Eigen::Index>(p)] * at[p].factor, nd,
+                &transposed);
     }
     if (law.Curved()) AddCurvature(at, laws.Of(point.forces, i), nd, &transposed);
     couples = couples || law.Couples();
@@ -92,7 +105,7 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
     Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system.NumEquations(), count), moved;
     for (Eigen::Index p = 0; p < count; ++p)
       for (std::size_t a = 0; a < at.dofs.size(); ++a)
-        forces(at.dofs[a], p) = at[static_cast<std::size_t>(p)].factor *
+        forces(at.dofs[a], p) = springs_[first_port_[k] + p] * at[static_cast<std::size_t>(p)].factor *
                                 at[static_cast<std::size_t>(p)].gradient[static_cast<Eigen::Index>(a)];
     solver.SolveAll(forces, &moved);
     motions.middleCols(1 + first_port_[k], count) = moved.topRows(nd);
@@ -118,9 +131,9 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
 Eigen::MatrixXd RateProblem::Equations(const States& states) const {
   const Eigen::Index columns = motion_.cols();
   Eigen::MatrixXd equations(num_ports_, columns);
-  // The force of a port is the whole force less that of its spring.
+  // The force of a port, over the stiffness of its spring, is the whole force less that of its spring.
   const auto force = [&](Eigen::Index port) {
-    Eigen::RowVectorXd row = -kSpring * motion_.row(port);
+    Eigen::RowVectorXd row = -motion_.row(port);
     row[1 + port] += 1.0;
     return row;
   };
@@ -133,8 +146,9 @@ Eigen::MatrixXd RateProblem::Equations(const States& states) const {
         equations.row(port) = force(port);
       else
         equations.row(port) = motion_.row(port);
-      if (rule.Holds() && rule.compliance != 0.0) equations.row(port) += rule.compliance * force(port);
-      if (rule.Follows()) equations.row(port) -= rule.ratio * force(first_port_[k]);
+      if (rule.Holds() && rule.compliance != 0.0) equations.row(port) += rule.compliance * springs_[port] * force(port);
+      if (rule.Follows())
+        equations.row(port) -= rule.ratio * (springs_[first_port_[k]] / springs_[port]) * force(first_port_[k]);
     }
   }
   return equations;
@@ -176,7 +190,7 @@ std::optional<CondensedRates> RateProblem::Rates(const States& states) const {
   CondensedRates rates;
   rates.load = z[0];
   rates.motion = motion_ * z;
-  rates.force = z.tail(num_ports_) - kSpring * rates.motion;
+  rates.force = springs_.cwiseProduct(z.tail(num_ports_) - rates.motion);
   return rates;
 }
 
@@ -205,7 +219,7 @@ std::optional<Limit> RateProblem::Broken(const States& states, const CondensedRa
         if (value > active.force * rule.unit) continue;
       } else {
         const Eigen::Index port = first_port_[k] + static_cast<Eigen::Index>(rule.port);
-        rate = rule.sign * rates.motion[port];
+        rate = rule.sign * (rates.motion[port] + rule.compliance * rates.force[port]);
       }
       if (sign * rate >= -tolerance * (rule.OfForces() ? force * rule.unit : 1.0)) continue;
       const Limit broken = {static_cast<int>(i), rule.id};

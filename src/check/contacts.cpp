@@ -41,9 +41,13 @@ struct MovedObstacle {
 class ObstacleContact : public Contact {
  public:
   // slip_origin: of the total law of friction, as the obstacle sees it.
-  // of_body: a body has the node, which it carries, or the obstacle.
-  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin, bool of_body)
-      : Contact(node, obstacle.friction), obstacle_(std::move(obstacle)), slip_origin_(slip_origin), gives_(of_body) {}
+  // of_body: a body has the node, which it carries, or the obstacle. size: of coordinates.
+  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin, bool of_body, Real size)
+      : Contact(node, obstacle.friction),
+        obstacle_(std::move(obstacle)),
+        slip_origin_(slip_origin),
+        gives_(of_body),
+        step_(kStep * size) {}
 
   Real FrictionIn(const PlacedState& state) const override {
     return obstacle_.friction + obstacle_.friction_rate * state.LoadFactor();
@@ -108,7 +112,7 @@ class ObstacleContact : public Contact {
   // Along t, where contacts give way, over that where the gap is closed: what rt does work along is slip. sense: to
   // which side.
   Real SlipPerMotion(const PlacedState& state, Real sense) const {
-    const Real gap = Gap(state), step = sense * gap;
+    const Real gap = Gap(state), step = sense * std::max(step_, std::abs(gap));
     if (!gives_ || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
     const Vector along{step * n.y, -step * n.x};
@@ -125,9 +129,14 @@ class ObstacleContact : public Contact {
     return obstacle_.about + Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
   }
 
+  // Of coordinates: their rounding over it is far below the residual that is accepted, and the ratio of the two slips
+  // differs from its limit by its square times the gap only.
+  static constexpr Real kStep = 1e-5L;
+
   MovedObstacle obstacle_;
   std::optional<Vector> slip_origin_;
   bool gives_;
+  Real step_;
 };
 
 class BoundaryContact : public Contact {
@@ -251,7 +260,7 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
 }
 
 std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
-                                                         const std::vector<double>& slip_origins) {
+                                                         const std::vector<double>& slip_origins, Real size) {
   std::unordered_map<std::string_view, MovedObstacle> obstacles;
   std::unordered_map<std::string_view, const Obstacle*> circles;
   for (const Obstacle& obstacle : scene.obstacles) circles.emplace(obstacle.name, &obstacle);
@@ -302,7 +311,7 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     }
     partner.num_nodes = scene.nodes.size();
     const bool of_body = !contact.obstacles.empty() || partner.body.has_value() || IsAttached(scene.nodes[node]);
-    contacts.push_back(std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body));
+    contacts.push_back(std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body, size));
   }
   return contacts;
 }

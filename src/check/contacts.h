@@ -102,10 +102,10 @@ class Contact {
 // By surface of the scene.
 std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numbers);
 
-// In the order of the scene. slip_origins: of Configuration. Throws std::out_of_range or std::invalid_argument for a
-// name that the scene does not have.
+// In the order of the scene. slip_origins: of Configuration. size: of coordinates. Throws std::out_of_range or
+// std::invalid_argument for a name that the scene does not have.
 std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
-                                                         const std::vector<double>& slip_origins);
+                                                         const std::vector<double>& slip_origins, Real size);
 
 // N, Q, M, M1, M2 of bars and segments of beams, in the order of the elements. values: as ValuesOf() orders them.
 // num_positions: of the values, those before the rotations.

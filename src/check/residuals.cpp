@@ -111,7 +111,7 @@ struct ResidualCheck::Prepared {
     const std::vector<TouchedBoundary> touched = TouchedBoundaries(scene);
     num_touched = touched.size();
     touched_by = BoundaryOfContacts(scene, touched);
-    contacts = check::MakeContacts(scene, index, configuration.slip_origins);
+    contacts = check::MakeContacts(scene, index, configuration.slip_origins, size);
     std::vector<check::ContactPlace> places;
     for (std::size_t i = 0; i < contacts.size(); ++i) places.push_back({contacts[i]->Node(), touched_by[i]});
     contact_edges = check::ContactEdges(elements, places);

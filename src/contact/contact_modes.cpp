@@ -62,10 +62,11 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
     const ContactState state = plus ? ContactState::kSlipPlus : ContactState::kSlipMinus;
     StateRule& slip = rule_of(state);
     slip.ports = {held, PortRule{PortRule::Kind::kFollows, plus ? -mu : mu, 0.0}};
-    const LimitRule slides = traits.holonomic ? OfMotion(ContactLimit::kTotalSlip, LimitRule::Of::kMotion, kTangent,
-                                                         plus ? 1.0 : -1.0, ContactState::kStick)
-                                              : OfMotion(ContactLimit::kSlip, LimitRule::Of::kMotionRate, kTangent,
-                                                         plus ? 1.0 : -1.0, ContactState::kStick);
+    LimitRule slides = traits.holonomic ? OfMotion(ContactLimit::kTotalSlip, LimitRule::Of::kMotion, kTangent,
+                                                   plus ? 1.0 : -1.0, ContactState::kStick)
+                                        : OfMotion(ContactLimit::kSlip, LimitRule::Of::kMotionRate, kTangent,
+                                                   plus ? 1.0 : -1.0, ContactState::kStick);
+    if (slides.OfRate()) slides.compliance = surface_traits.compliance;
     slip.limits = with_ends(state, {bears, slides});
     slip.held = NumberOf(ContactState::kStick);
     slip.symmetric = false;

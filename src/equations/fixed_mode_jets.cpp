@@ -10,7 +10,12 @@ Jet FixedModeSystem::ValueAlong(const Limit& limit, const Eigen::VectorXd& x, co
                                 const Eigen::VectorXd& second) const {
   if (RuleOf(limit).OfForces()) return {Value(limit, x), Value(limit, first), Value(limit, second)};
   const Motion motion = MotionOf(limit);
-  const Jet jet = MotionAlong(motion.law, motion.port, x, first, second);
+  Jet jet = MotionAlong(motion.law, motion.port, x, first, second);
+  if (const double compliance = RuleOf(limit).compliance; compliance != 0.0) {
+    jet.value += compliance * ForcesOf(motion.law, x)[motion.port];
+    jet.first += compliance * ForcesOf(motion.law, first)[motion.port];
+    jet.second += compliance * ForcesOf(motion.law, second)[motion.port];
+  }
   return {motion.offset + motion.sign * jet.value, motion.sign * jet.first, motion.sign * jet.second};
 }
 

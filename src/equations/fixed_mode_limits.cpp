@@ -90,7 +90,8 @@ double FixedModeSystem::Rate(const Limit& limit, const Eigen::VectorXd& x, const
   if (RuleOf(limit).OfForces()) return Value(limit, dx);
   const Motion motion = MotionOf(limit);
   const PortsAt at = Evaluate(motion.law, x);
-  return motion.sign * at.Rate(at[motion.port].gradient, dx, dx[NumDofs()]);
+  const double rate = at.Rate(at[motion.port].gradient, dx, dx[NumDofs()]), compliance = RuleOf(limit).compliance;
+  return motion.sign * (compliance == 0.0 ? rate : rate + compliance * ForcesOf(motion.law, dx)[motion.port]);
 }
 
 Eigen::VectorXd FixedModeSystem::Gradient(const Limit& limit, const Eigen::VectorXd& x) const {
@@ -105,6 +106,8 @@ Eigen::VectorXd FixedModeSystem::Gradient(const Limit& limit, const Eigen::Vecto
     for (std::size_t k = 0; k <= m; ++k)
       if (laws_[i].Moves(motion.port, k))
         gradient[k < m ? at.dofs[k] : NumDofs()] += motion.sign * by_local[static_cast<Eigen::Index>(k)];
+    if (rule.compliance != 0.0)
+      gradient[UnknownOf(i, 0)] += motion.sign * rule.compliance * laws_[i].In(modes_[i]).ports[motion.port].ratio;
   } else {
     for (std::size_t p = 0; p < rule.weights.size(); ++p)
       if (rule.weights[p] != 0.0) gradient[UnknownOf(i, p)] = rule.weights[p];

@@ -9,6 +9,7 @@
 
 #include "contact_path/path/trace.h"
 #include "support/traced_path.h"
+#include "support/transformations.h"
 
 namespace contact_path::body_scenes_test {
 namespace {
@@ -34,6 +35,16 @@ TEST(BodyScenes, LimitsInClosedForm) {
     const TracedPath path = TraceWithoutFindings(ReadExample(scene));
     EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
     EXPECT_NEAR(LargestLoadOf(path), load, tolerance);
+  }
+}
+
+// Coordinates are rounded everywhere but at this angle: 0.
+TEST(BodyScenes, AHeldDiscSlipsAtTheSameLoadWhicheverWayItIsTurned) {
+  for (const double degrees : {17.0, 90.0, 230.9, 301.3}) {
+    SCOPED_TRACE(degrees);
+    const TracedPath path = TraceWithoutFindings(Rotate(ReadExample("held_disc"), degrees * kPi / 180.0));
+    EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
+    EXPECT_NEAR(LargestLoadOf(path), 0.4, 5e-9);
   }
 }
 

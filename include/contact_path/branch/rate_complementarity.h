@@ -61,7 +61,7 @@ class RateComplementarity {
   std::vector<int> base_;  // state, by weakly active law
   std::vector<Pair> pairs_;
   std::vector<int> turn_;       // by port: when it is decided whether its motion is given
-  Eigen::VectorXd compliance_;  // by port
+  Eigen::VectorXd compliance_;  // by port, times the stiffness of its spring
   Eigen::MatrixXd matrix_;      // scaled so that its diagonal is of the order of 1
   Eigen::VectorXd load_;        // of s' = 1
   bool exists_ = false;

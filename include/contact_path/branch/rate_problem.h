@@ -34,8 +34,10 @@ class RateProblem {
   // False: the structure is singular even with the springs, and nothing below can be asked.
   bool regular() const { return regular_; }
   // Rates of the motions of the ports of the weakly active laws: rows, by ds, and by the force of each of these ports,
-  // the force of its spring included, which has the stiffness 1.
+  // the force of its spring included, over the stiffness of the spring.
   const Eigen::MatrixXd& MotionRates() const { return motion_; }
+  // By port: scaled stiffness of its spring.
+  const Eigen::VectorXd& Springs() const { return springs_; }
   // Of the first port of a weakly active law.
   Eigen::Index FirstPort(std::size_t k) const { return first_port_[k]; }
 
@@ -64,6 +66,7 @@ class RateProblem {
   std::vector<Eigen::Index> first_port_;
   Eigen::Index num_ports_ = 0;
   bool regular_ = false;
+  Eigen::VectorXd springs_;
   Eigen::MatrixXd motion_;  // MotionRates()
   Eigen::MatrixXd free_;    // the same by rigid motions of parts that nothing holds but these laws: columns
   Eigen::MatrixXd gram_;    // z . gram z = |(du, ds)|^2

@@ -40,6 +40,7 @@ struct LimitRule {
   Of of = Of::kMotion;
   std::size_t port = 0;
   double sign = 1.0;
+  double compliance = 0.0;  // of a rate: times the force, part of the motion; what a port gives way by is no slip
   PortReals weights{};
   double unit = 1.0;  // what tolerances of values and rates are multiplied with
   int next = 0;       // state
