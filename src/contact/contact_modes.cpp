@@ -40,6 +40,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   SetLaw(traits, {});
   const double unit = ForceUnit();
   const PortRule held = {PortRule::Kind::kHeld, 0.0, surface_traits.compliance};
+  const double along = surface_traits.tangent_gives ? surface_traits.compliance : 0.0;
   const LimitRule bears = OfForces(ContactLimit::kNormalReaction, {1.0, 0.0}, NormalForceUnit(), ContactState::kOpen);
   const auto with_ends = [&](ContactState state, std::vector<LimitRule> limits) {
     if (HasPatches() && !Seamless())
@@ -52,8 +53,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   const auto rule_of = [&](ContactState state) -> StateRule& { return states[static_cast<std::size_t>(state)]; };
 
   StateRule& stick = rule_of(ContactState::kStick);
-  stick.ports = {held,
-                 PortRule{PortRule::Kind::kHeld, 0.0, surface_traits.tangent_gives ? surface_traits.compliance : 0.0}};
+  stick.ports = {held, PortRule{PortRule::Kind::kHeld, 0.0, along}};
   stick.limits = {bears, OfForces(ContactLimit::kConePlus, {mu, 1.0}, unit, ContactState::kSlipPlus),
                   OfForces(ContactLimit::kConeMinus, {mu, -1.0}, unit, ContactState::kSlipMinus)};
   stick.held = NumberOf(ContactState::kStick);
@@ -66,7 +66,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
                                                    plus ? 1.0 : -1.0, ContactState::kStick)
                                         : OfMotion(ContactLimit::kSlip, LimitRule::Of::kMotionRate, kTangent,
                                                    plus ? 1.0 : -1.0, ContactState::kStick);
-    if (slides.OfRate()) slides.compliance = surface_traits.compliance;
+    if (slides.OfRate()) slides.compliance = along;
     slip.limits = with_ends(state, {bears, slides});
     slip.held = NumberOf(ContactState::kStick);
     slip.symmetric = false;
