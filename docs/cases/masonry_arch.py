@@ -43,19 +43,22 @@ def arch(blocks, thickness):
 
 
 def push(blocks, thickness):
-    """The largest push over the weight."""
-    return cp.trace(arch(blocks, thickness), at_limit='stop')['load_factor'][-1]
+    """The largest push over the weight; nothing where the path of the weight does not come to its end."""
+    loads = cp.trace(arch(blocks, thickness), at_limit='stop')['load_factor']
+    return loads[-1] if len(loads) else None
 
 
 def least_thickness(blocks):
-    """Where the push, smooth in the thickness, is 0: by secants from above, as there is no path below."""
-    last, here = 0.14, 0.12
-    before, now = push(blocks, last), push(blocks, here)
-    while now > 1e-4:
-        ahead = here - 0.9 * now * (last - here) / (before - now)
-        last, before, here = here, now, ahead
-        now = push(blocks, here)
-    return here - now * (last - here) / (before - now)
+    """Where nothing is left of the push: by bisection as thin as paths go, and from there on as the push falls, by a line."""
+    falls, stands = 0.08, 0.12
+    while stands - falls > 1e-3:
+        middle = 0.5 * (falls + stands)
+        if push(blocks, middle) is None:
+            falls = middle
+        else:
+            stands = middle
+    there, beside = push(blocks, stands), push(blocks, stands + 1e-3)
+    return stands - 1e-3 * there / (beside - there)
 
 
 def plot(pushes, file):

@@ -187,6 +187,7 @@ class StabilityChecks {
   std::vector<bool> of_surfaces_;  // by candidate: what it touches deforms
   std::vector<std::set<std::size_t>> coupled_;
   std::vector<std::vector<std::size_t>> groups_;
+  std::vector<BarState> bars_of_groups_;  // slack ones couple nothing
 };
 
 }  // namespace contact_path

@@ -101,6 +101,7 @@ void StabilityChecks::FindCouplings(const Increment& increment, double step) {
       if (forces[static_cast<Eigen::Index>(k)] != 0.0) coupled_[NodeOf(component)].insert(NodeOf(k));
   }
   groups_.clear();
+  bars_of_groups_ = increment.bars;
   std::vector<std::set<std::size_t>> reached;  // by group
   for (std::size_t node = 0; node < nodes; ++node) {
     const auto apart = [&](const std::set<std::size_t>& by_others) {
@@ -155,7 +156,7 @@ void StabilityChecks::Check(const Increment& increment, double machine_stiffness
   if (!components) return;
   // By two steps, which tell how far differences are to be trusted.
   const double step = std::cbrt(std::numeric_limits<double>::epsilon());
-  if (groups_.empty()) FindCouplings(increment, step);
+  if (groups_.empty() || increment.bars != bars_of_groups_) FindCouplings(increment, step);
   Eigen::MatrixXd stiffness = Stiffness(increment, *components, step);
   // What no element moves with is no unknown, as the rotation of a node that no beam turns.
   std::vector<std::size_t> moving;
