@@ -60,10 +60,10 @@ TEST(Eyes, TheTensionsDifferByTheCapstanFactor) {
           const ContactState state = increment.contacts[0].state;
           EXPECT_NEAR(increment.contacts[0].rn, before + behind, 1e-9);
           if (state == ContactState::kSlipPlus) {
-            EXPECT_NEAR(behind, factor * before, kSoft);
+            EXPECT_NEAR(behind / factor, before, kSoft);
             sticks = std::max(sticks, behind);
           } else if (state == ContactState::kSlipMinus) {
-            EXPECT_NEAR(behind * factor, before, kSoft);
+            EXPECT_NEAR(behind, before / factor, kSoft);
           } else if (increment.stage == 2 && increment.kind == IncrementKind::kContactEvent) {
             leaves = behind;
           }
