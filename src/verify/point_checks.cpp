@@ -240,7 +240,7 @@ void PointChecks::CheckForces(const Increment& increment) {
     same("length", "contact", i, of.length, be, length, rounding);
     same("pressure", "contact", i, of.pressure, be > 0.0 ? contact.rn / be : 0.0, unit, rounding);
     same("traction", "contact", i, of.traction, be > 0.0 ? contact.rt / be : 0.0, unit, rounding);
-    if (contact.state != ContactState::kOpen) widths[anew.boundaries[i]] += be;
+    if (contact.state != ContactState::kOpen && be > 0.0) widths[anew.boundaries[i]] += be;
   }
   for (std::size_t i = 0; i < widths.size(); ++i)
     same("width", "boundary", i, increment.widths[i], widths[i], length, rounding);
