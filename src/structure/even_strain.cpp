@@ -55,6 +55,7 @@ void EvenStrain::Derive(const Eigen::VectorXd& x, const Eigen::VectorXd& v, Eige
                         Eigen::MatrixXd* change) const {
   const auto size = static_cast<int>(x.size());
   std::vector<Twice> values;
+  values.reserve(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i) {
     Along along(x[i], Eigen::Matrix<double, 1, 1>::Constant(v[i]));
     values.emplace_back(Once(along, kMost, i), kMost, i);
@@ -76,6 +77,7 @@ void EvenStrain::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Ei
   using Number = Eigen::AutoDiffScalar<Eigen::Matrix<double, kMost, 1>>;
   const auto size = static_cast<int>(x.size());
   std::vector<Number> values;
+  values.reserve(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i) values.emplace_back(x[i], kMost, i);
   force = EnergyOf(values).derivatives().head(size);
 }
