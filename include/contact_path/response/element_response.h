@@ -55,7 +55,7 @@ class ElementResponse {
   struct Placed {
     std::unique_ptr<const Element> element;
     std::vector<int> components;  // by local dof: into the values
-    std::size_t pieces = 1;  // from node to node, with the same forces
+    std::size_t pieces = 1;       // from node to node, with the same forces
   };
 
   Scaling scaling_;
