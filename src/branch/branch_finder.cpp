@@ -12,8 +12,6 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kMostPivots = 1000;
-
 // Of two unit vectors [rad].
 double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
@@ -94,14 +92,7 @@ bool BranchFinder::TryStates(const States& states, std::vector<Branch>* branches
 
 std::optional<States> BranchFinder::PivotFrom(States states, double load_sense, const RateProblem* condensed) {
   std::set<States> seen;
-  bool one_at_a_time = false;
-  while (!Cancelled()) {
-    if (!seen.insert(states).second) {
-      if (one_at_a_time) return std::nullopt;
-      one_at_a_time = true;
-      seen = {states};
-    }
-    if (seen.size() > kMostPivots) return std::nullopt;
+  while (!Cancelled() && seen.insert(states).second) {
     std::optional<std::vector<Limit>> broken = BrokenOf(states, load_sense, condensed);
     if (!broken) return std::nullopt;
     const auto rule_of = [&, now = states](const Limit& limit) -> const LimitRule& {
@@ -113,8 +104,6 @@ std::optional<States> BranchFinder::PivotFrom(States states, double load_sense, 
         std::remove_if(broken->begin(), broken->end(), [&](const Limit& limit) { return rule_of(limit).OfPiece(); }),
         broken->end());
     if (broken->empty()) return states;
-    // Those of the first law: Murty's method, which comes to its end where the solution is the only one for any load.
-    if (one_at_a_time) broken->resize(1);
     for (const Limit& limit : *broken) states[static_cast<std::size_t>(limit.law)] = rule_of(limit).next;
   }
   return std::nullopt;

@@ -40,8 +40,8 @@ class BranchFinder {
   bool TryStates(const States& states, std::vector<Branch>* branches, double load_sense = 1.0);
 
   // Principal pivoting from these states to some that break no limit where the load changes in this sense: laws whose
-  // limits are broken change their states, all at once, and where states come back, one at a time. condensed: null, or
-  // the rate problem whose rates tell what is broken. Nothing: there are no rates, or states come back again.
+  // limits are broken change their states, all at once. condensed: null, or the rate problem whose rates tell what is
+  // broken. Nothing: there are no rates, or states come back.
   std::optional<States> PivotFrom(States states, double load_sense, const RateProblem* condensed);
 
   // Whether laws are redundant with these states, or their rates are broken in both directions by far more than

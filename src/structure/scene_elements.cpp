@@ -17,6 +17,7 @@
 #include "contact_path/structure/even_strain.h"
 #include "contact_path/structure/material.h"
 #include "contact_path/structure/solid.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -263,9 +264,6 @@ void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<do
   }
 }
 
-// Softer than rounding leaves stiffness by this share.
-constexpr double kSoft = 1e-8;
-
 PlacedElement EvenStrainAt(const ContactCandidate& eye, const Scene& scene, const SceneIndex& index) {
   std::vector<int> nodes;
   const auto local = [&](const std::string& name) {
@@ -290,7 +288,7 @@ PlacedElement EvenStrainAt(const ContactCandidate& eye, const Scene& scene, cons
     return of;
   };
   const EvenStrain::Piece before = piece(1), behind = piece(0);
-  const double stiffness = kSoft * EA * std::min(before.rest, behind.rest);
+  const double stiffness = tolerances::kRootOfRounding * EA * std::min(before.rest, behind.rest);
   return {std::make_unique<EvenStrain>(stiffness, before, behind, static_cast<int>(nodes.size())), nodes};
 }
 

@@ -14,7 +14,7 @@ namespace contact_path::eyes_test {
 namespace {
 
 // What keeps the strains of a slack tendon even, of the difference of the tensions.
-constexpr double kSoft = 1e-7;
+constexpr double kSoft = 2e-8;
 constexpr double kSame = 1e-7;
 
 // From a fixed node through a fixed eye, round which it turns by `turn`, to a node that a force draws along the tendon
@@ -58,6 +58,10 @@ TEST(Eyes, TheTensionsDifferByTheCapstanFactor) {
         for (const Increment& increment : path.increments) {
           const double before = increment.sections[0].N, behind = increment.sections[1].N;
           const ContactState state = increment.contacts[0].state;
+          // At the end, without tension, none need be proved.
+          if (increment.contacts[0].rn > 1e-6) {
+            EXPECT_EQ(increment.stability.stability, Verdict::kStable);
+          }
           EXPECT_NEAR(increment.contacts[0].rn, before + behind, 1e-9);
           if (state == ContactState::kSlipPlus) {
             EXPECT_NEAR(behind / factor, before, kSoft);
@@ -96,9 +100,9 @@ TEST(Eyes, FrictionTakesTheDifferenceOfTheTensionsTimesWhatSlides) {
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     const double factor = std::exp(0.5 * M_PI * friction), slid = 0.5;
     const Increment& last = path.increments.back();
-    EXPECT_NEAR(last.supports.back().ry, -2.0 * slid * factor, 1e-5);
-    EXPECT_NEAR(last.dissipation, (factor - 1.0) * slid * slid, 1e-5);
-    EXPECT_NEAR(last.strain_energy, slid * slid, 1e-5);
+    EXPECT_NEAR(last.supports.back().ry, -2.0 * slid * factor, 2e-6);
+    EXPECT_NEAR(last.dissipation, (factor - 1.0) * slid * slid, 1e-6);
+    EXPECT_NEAR(last.strain_energy, slid * slid, 1e-6);
     ExpectNoFindings(path);
   }
 }
@@ -127,7 +131,7 @@ TEST(Eyes, ATackleLosesAtEachSheave) {
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
       double advantage = 0.0;
       for (int k = 1; k <= parts; ++k) advantage += std::exp(-M_PI * friction * k);
-      EXPECT_NEAR(-path.increments.back().supports.back().ry, 1.0 / advantage, 1e-7);
+      EXPECT_NEAR(-path.increments.back().supports.back().ry, 1.0 / advantage, kSoft);
       for (const ContactRecord& eye : path.increments.back().contacts) EXPECT_EQ(eye.state, ContactState::kSlipPlus);
       ExpectNoFindings(path);
     }
@@ -207,7 +211,7 @@ TEST(Eyes, OfAFingerAreTheSameInOtherWords) {
     }
     for (std::size_t k = 0; k < a.contacts.size(); ++k) {
       EXPECT_EQ(a.contacts[k].state, b.contacts[k].state);
-      EXPECT_NEAR(a.contacts[k].rt, b.contacts[k].rt, 1e-5);
+      EXPECT_NEAR(a.contacts[k].rt, b.contacts[k].rt, kSame);
     }
   }
 }
