@@ -85,5 +85,7 @@ if(CATKIN_ENABLE_TESTING)
     # They wait for nodes: one at a time, the first of all tests.
     set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${test}.test PROPERTIES RESOURCE_LOCK contact_path_nodes COST 100)
   endforeach()
+  # It keeps two processors busy itself, and asks what is lost beside them.
+  set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_streaming.test PROPERTIES PROCESSORS 2)
   unset(CATKIN_ENV)
 endif()

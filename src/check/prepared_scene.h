@@ -11,12 +11,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-#include "check/attached.h"
-#include "check/boundary.h"
-#include "check/contacts.h"
-#include "check/elements.h"
-#include "check/pins.h"
-#include "check/plane.h"
 
 #include "check/attached.h"
 #include "check/boundary.h"

@@ -44,7 +44,8 @@ class IncrementPublisher {
   void PublishRequest(const contact_path_msgs::TraceRequest& request);
 
   // Takes an increment. Where most_bytes wait, the call waits until the pace has made room. Where subscribers that do
-  // not read leave no room, the increment is left out on the topic. By one thread at a time.
+  // not read leave no room for a second, the increment is left out on the topic, and so are those behind it, at once,
+  // until there is room. By one thread at a time.
   void Publish(const contact_path_msgs::Increment& increment, const Interrupted& interrupted);
 
   // Waits until roscpp has every increment that was taken.
@@ -82,6 +83,7 @@ class IncrementPublisher {
   mutable std::mutex mutex_;  // guards all of these, and the order on the topic
   std::deque<Entry> queue_;
   std::size_t left_out_ = 0;
+  bool stuck_ = false;  // the last increment was left out for want of room
   bool ending_ = false;
   std::condition_variable filled_;   // the queue was empty, or the end has come
   std::condition_variable emptied_;  // the queue is shorter
