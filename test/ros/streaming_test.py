@@ -3,6 +3,7 @@
 Nodes: see streaming.test."""
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -19,6 +20,14 @@ import helpers
 
 NODE = '/contact_path'
 BUSY = 2  # processes beside the node
+
+READER = """
+import sys, rospy
+from contact_path.msg import Increment
+rospy.init_node('reader')
+rospy.Subscriber(sys.argv[1], Increment, lambda _: None)
+rospy.spin()
+"""
 
 
 def request_of(increments, name='sliding_bar'):
@@ -170,6 +179,18 @@ class StreamingTest(unittest.TestCase):
         with helpers.Collector(node + '/increments') as collector:
             response, _ = self.timed(long_request(400), node)  # 12 MB, 1 MB of room
             self.expect_all_arrive(collector, response, node)
+
+    def test_subscriber_that_does_not_read_holds_a_trace_up_once(self):
+        node = '/small' + NODE
+        with subprocess.Popen([sys.executable, '-c', READER, node + '/increments']) as subscriber:
+            try:
+                helpers.wait_until(lambda: helpers.is_subscribed('/reader', node + '/increments'), 'it listens')
+                subscriber.send_signal(signal.SIGSTOP)
+                response, seconds = self.timed(long_request(800), node)  # 25 MB, more than all buffers on the way
+            finally:
+                subscriber.kill()
+        self.assertEqual(len(self.increments_of(response, node)), response.increments)
+        self.assertLess(seconds, 30.0)  # a second for each increment that is left out would be minutes
 
     # Cancel
 
