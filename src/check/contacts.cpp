@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "check/surfaces.h"
-#include "check/tendon_pieces.h"
+#include "check/tendons.h"
 #include "contact_path/scene/expand.h"
 
 namespace contact_path::check {

@@ -25,6 +25,7 @@ class PlacedState {
 
   const std::vector<double>& Positions() const { return state_.positions; }
   Vector Place(std::size_t node) const { return NodePosition(state_.positions, node); }
+  std::vector<double> Values() const { return ValuesOf(state_.positions, state_.rotations); }
   Real Rotation(std::size_t node) const { return state_.rotations[node]; }
   Real LoadFactor() const { return state_.load_factor; }
   const BoundaryShape& Shape(std::size_t surface) const {

@@ -9,7 +9,7 @@
 #include <string>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "check/tendon_pieces.h"
+#include "check/tendons.h"
 
 namespace contact_path::check {
 namespace {
@@ -92,45 +92,6 @@ class BarElement : public Element {
   Real EA_, rest_;
   StrainMeasure strain_;
   BarSense sense_;
-};
-
-// W = EA (l - l0)^2 / (2 l0), l the length along the nodes, where it is > l0.
-class TendonElement : public Element {
- public:
-  TendonElement(const Tendon& tendon, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
-      : Element(Kind::kTendon, nodes), EA_(tendon.EA), rest_(tendon.rest_length) {
-    if (tendon.rest_length == 0.0) rest_ = LengthIn(reference);
-  }
-
-  std::optional<Real> Tension(const std::vector<double>& positions) const override {
-    return EA_ * std::max<Real>(LengthIn(positions) / rest_ - 1.0L, 0.0L);
-  }
-  Real Stiffness() const override { return 4.0L * EA_ / rest_; }
-
-  void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
-    const Real tension = *Tension(positions);
-    *energy += 0.5L * rest_ * tension * tension / EA_;
-  }
-
-  void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
-    const Real tension = *Tension(positions);
-    for (std::size_t i = 1; i < Nodes().size() && tension > 0.0L; ++i) {
-      const Vector span = Span(positions, i);
-      AddTo(forces, Nodes()[i - 1], -tension / Length(span) * span);
-      AddTo(forces, Nodes()[i], tension / Length(span) * span);
-    }
-  }
-
- private:
-  Vector Span(const std::vector<double>& positions, std::size_t i) const {
-    return NodePosition(positions, Nodes()[i]) - NodePosition(positions, Nodes()[i - 1]);
-  }
-  Real LengthIn(const std::vector<double>& positions) const {
-    Real sum = 0.0L;
-    for (std::size_t i = 1; i < Nodes().size(); ++i) sum += Length(Span(positions, i));
-    return sum;
-  }
-  Real EA_, rest_;
 };
 
 // W = (x - X)' K (x - X) / 2.
@@ -309,11 +270,6 @@ void Place(const Bar& bar, const Scene&, const NodeList& nodes, const std::vecto
   elements->push_back(std::make_unique<BarElement>(bar, nodes, reference));
 }
 
-void Place(const Tendon& tendon, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
-           Elements* elements) {
-  elements->push_back(std::make_unique<TendonElement>(tendon, nodes, reference));
-}
-
 void Place(const Superelement& part, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
            Elements* elements) {
   elements->push_back(std::make_unique<LinearPart>(part, nodes, reference));
@@ -358,20 +314,21 @@ void Place(const Solid& solid, const Scene& scene, const NodeList& nodes, const 
 std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& reference) {
   std::vector<std::unique_ptr<const Element>> elements;
+  std::vector<double> unturned = reference;
+  unturned.resize(3 * scene.nodes.size());
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
     for (const auto& part : parts) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Tendon>)
-        if (part.IsPiece()) {
-          elements.push_back(MakePiece(part, scene, numbers));
-          continue;
-        }
-      std::vector<std::size_t> nodes;
-      for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
-      Place(part, scene, nodes, reference, &elements);
+      if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Tendon>) {
+        elements.push_back(MakeTendon(part, scene, numbers, unturned));
+      } else {
+        std::vector<std::size_t> nodes;
+        for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
+        Place(part, scene, nodes, reference, &elements);
+      }
     }
   });
   for (const ContactCandidate& contact : scene.contacts)
-    if (contact.at_eye) elements.push_back(MakeEvenStrain(contact, scene, numbers));
+    if (contact.at_eye) elements.push_back(MakeEvenStrain(contact, scene, numbers, unturned));
   return elements;
 }
 

@@ -16,6 +16,7 @@
 #include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/surface.h"
+#include "contact_path/scene/tendon_route.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -102,14 +103,19 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       continue;
     }
     if (candidate.at_eye) {
-      const auto piece = [&](std::size_t end) {
+      const auto piece = [&](std::size_t end) -> const Tendon& {
         const auto found = std::find_if(scene.tendons.begin(), scene.tendons.end(),
                                         [&](const Tendon& of) { return of.slides[end] == candidate.node; });
-        return MakeSpan(*found, scene, index, structure);
+        return *found;
       };
+      const Tendon &before = piece(1), &behind = piece(0);
+      TendonEye::Roller roller;
+      if (const double rho = SignedRadius(before, 1); rho != 0.0)
+        roller = {rho > 0.0 ? 1.0 : -1.0, before.wrapped[1] + behind.wrapped[0]};
       contacts.push_back(std::make_unique<TendonEye>(
-          piece(1), piece(0), Coordinate{structure.Dof(node, 0), scene.nodes[static_cast<std::size_t>(node)].x},
-          candidate.friction));
+          MakeSpan(before, scene, index, structure), MakeSpan(behind, scene, index, structure),
+          Coordinate{structure.Dof(node, 0), scene.nodes[static_cast<std::size_t>(node)].x}, candidate.friction,
+          roller));
       continue;
     }
     const std::size_t at = index.Obstacle(candidate.obstacle);

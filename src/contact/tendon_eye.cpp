@@ -12,11 +12,27 @@ namespace {
 
 constexpr double kStraight = 1e-3;  // [rad]
 
+// Of a span from node to node: the direction of what is free of it, its length, and by how much it turned since the
+// start; dx, dy as they are where it has no radii.
 template <typename Number>
-Number Tension(double EA, const Number& dx, const Number& dy, const Number& rest) {
-  using std::sqrt;
-  return EA * (sqrt(dx * dx + dy * dy) / rest - 1.0);
-}
+struct FreeSpan {
+  FreeSpan(const RolledSpan& rolled, const Number& dx, const Number& dy) : x(dx), y(dy) {
+    using std::atan2;
+    using std::sqrt;
+    const Number square = dx * dx + dy * dy;
+    const double delta = rolled.Delta();
+    if (delta == 0.0) {
+      length = sqrt(square);
+    } else {
+      length = sqrt(Number(square - delta * delta));
+      x = length * dx + dy * delta;
+      y = length * dy - dx * delta;
+    }
+    if (const Eigen::Vector2d& start = rolled.StartDirection(); start != Eigen::Vector2d::Zero())
+      turned = atan2(Number(y * start.x() - x * start.y()), Number(x * start.x() + y * start.y()));
+  }
+  Number x, y, length, turned;
+};
 
 LawDofs AllDofs(const TendonSpan& before, const TendonSpan& behind) {
   std::set<int> dofs;
@@ -28,11 +44,13 @@ LawDofs AllDofs(const TendonSpan& before, const TendonSpan& behind) {
 
 }  // namespace
 
-TendonEye::TendonEye(const TendonSpan& before, const TendonSpan& behind, const Coordinate& slid, double friction)
+TendonEye::TendonEye(const TendonSpan& before, const TendonSpan& behind, const Coordinate& slid, double friction,
+                     const Roller& roller)
     : before_(before),
       behind_(behind),
       slid_(slid),
       friction_(friction),
+      roller_(roller),
       compliance_(std::min(before.Compliance(), behind.Compliance())) {
   Traits traits;
   traits.dofs = AllDofs(before, behind);
@@ -66,16 +84,26 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
   using std::log;
   using std::tanh;
   const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
-  const Gradient values = (Gradient() << before.span.x, before.rest, behind.span.x, behind.rest).finished();
+  const Gradient values =
+      (Gradient() << before.span.x, before.Wound(), before.rest, behind.span.x, behind.Wound(), behind.rest).finished();
   std::array<Twice, kLocals> z;
   for (int k = 0; k < kLocals; ++k) {
     Once once(values[k], kLocals, k);
     z[static_cast<std::size_t>(k)] = Twice(once, kLocals, k);
   }
-  const Twice sum = Tension(before_.EA(), z[0], z[1], z[2]) + Tension(behind_.EA(), z[3], z[4], z[5]);
-  Twice turn = atan2(Twice(z[0] * z[4] - z[1] * z[3]), Twice(z[0] * z[3] + z[1] * z[4]));
-  if (turn.value().value() < 0.0) turn = -turn;
-  const Twice rounded = turn + log(Twice(exp(Twice(turn * (-2.0 / kStraight))) + 1.0)) * kStraight;
+  const FreeSpan<Twice> in(before_.Rolled(), z[0], z[1]), out(behind_.Rolled(), z[4], z[5]);
+  const auto tension = [&](const FreeSpan<Twice>& of, std::size_t first) -> Twice {
+    return before_.EA() * (Twice(of.length + z[first + 2]) / z[first + 3] - 1.0);
+  };
+  const Twice sum = tension(in, 0) + tension(out, 4);
+  Twice rounded;
+  if (roller_.sense == 0.0) {
+    Twice turn = atan2(Twice(in.x * out.y - in.y * out.x), Twice(in.x * out.x + in.y * out.y));
+    if (turn.value().value() < 0.0) turn = -turn;
+    rounded = turn + log(Twice(exp(Twice(turn * (-2.0 / kStraight))) + 1.0)) * kStraight;
+  } else {
+    rounded = Twice(out.turned - in.turned) * roller_.sense + roller_.wrapped;
+  }
   const Twice share = tanh(Twice(rounded * (0.5 * friction_))) * (sum * (0.5 / before_.EA()) + 1.0);
   const auto function_of = [](const Twice& of) {
     Function function;
@@ -94,6 +122,7 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
   for (const auto& [span, at] : {std::pair(&before_, &before), std::pair(&behind_, &behind)}) {
     for (const Eigen::Index axis : {0, 1})
       by_q.row(row++) = Spread(LawVector(at->span.first.row(axis).transpose()), span->Span().Dofs(), dofs).transpose();
+    by_q.row(row++) = span->WoundGradient(dofs).transpose();
     by_q.row(row++) = span->RestGradient(dofs).transpose();
   }
   Place place{function_of(sum), function_of(share), {}, {}, {}, {}};
@@ -101,7 +130,7 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
     *gradient = by_q.transpose() * of.gradient;
     *hessian = by_q.transpose() * of.hessian * by_q;
     *hessian += Spread(before.span.Second(of.gradient.head<2>()), before_.Span().Dofs(), dofs);
-    *hessian += Spread(behind.span.Second(of.gradient.segment<2>(3)), behind_.Span().Dofs(), dofs);
+    *hessian += Spread(behind.span.Second(of.gradient.segment<2>(4)), behind_.Span().Dofs(), dofs);
   };
   by_place(place.sum, &place.sum_gradient, &place.sum_hessian);
   by_place(place.share, &place.share_gradient, &place.share_hessian);
@@ -128,8 +157,7 @@ void TendonEye::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, cons
 
 double TendonEye::Gap(const Eigen::VectorXd& u, double s, int /*piece*/) const {
   const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
-  return -compliance_ * (Tension(before_.EA(), before.span.x.x(), before.span.x.y(), before.rest) +
-                         Tension(behind_.EA(), behind.span.x.x(), behind.span.x.y(), behind.rest));
+  return -compliance_ * before_.EA() * (before.length / before.rest - 1.0 + behind.length / behind.rest - 1.0);
 }
 
 double TendonEye::GapOnRecord(const Eigen::VectorXd& u, double s, int /*piece*/) const {

@@ -9,6 +9,7 @@
 
 #include "contact_path/law/tendon_span.h"
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/tendon_route.h"
 #include "contact_path/tolerances.h"
 #include "scene/input_bounds.h"
 
@@ -25,25 +26,35 @@ constexpr int kTaut = NumberOf(BarState::kTaut), kSlack = NumberOf(BarState::kSl
 
 std::string_view ToString(BarState state) { return state == BarState::kTaut ? "taut" : "slack"; }
 
-SlackBar::SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length, StrainMeasure strain, BarSense sense)
+SlackBar::SlackBar(std::vector<BarSpan> spans, const Windings& windings, double EA, double rest_length,
+                   StrainMeasure strain, BarSense sense)
     : spans_(std::move(spans)),
+      windings_(windings),
       rest_length_(rest_length),
       EA_(EA),
       sense_(sense == BarSense::kTension ? 1.0 : -1.0),
       strain_(strain) {
   Traits traits;
   std::set<int> dofs;
-  for (const MovingPlace& span : spans_) dofs.insert(span.Dofs().begin(), span.Dofs().end());
+  for (const auto& [span, rolled] : spans_) dofs.insert(span.Dofs().begin(), span.Dofs().end());
+  for (const Winding& winding : windings_)
+    if (winding.turn.dof >= 0) dofs.insert(winding.turn.dof);
   for (const int dof : dofs) traits.dofs.push_back(dof);
+  const auto moves = [&](int dof) {  // -1: the load factor
+    traits.moves[0][dof < 0 ? dofs.size() : static_cast<std::size_t>(std::distance(dofs.begin(), dofs.find(dof)))] =
+        true;
+  };
   bool affine = true;
-  for (const MovingPlace& span : spans_) {
+  for (const auto& [span, rolled] : spans_) {
     affine = affine && span.Affine();
     for (std::size_t k = 0; k <= span.Dofs().size(); ++k)
-      if (span.Moves(static_cast<Eigen::Index>(k)))
-        traits.moves[0][k == span.Dofs().size()
-                            ? dofs.size()
-                            : static_cast<std::size_t>(std::distance(dofs.begin(), dofs.find(span.Dofs()[k])))] = true;
+      if (span.Moves(static_cast<Eigen::Index>(k))) moves(k == span.Dofs().size() ? -1 : span.Dofs()[k]);
   }
+  for (const Winding& winding : windings_)
+    if (winding.turn.Moves()) {
+      affine = false;
+      moves(winding.turn.dof);
+    }
   // While the bar is slack: l0 de/dl is l / l0, 1 or l0 / l, and both ends move.
   const bool bounded = affine && (strain == StrainMeasure::kBiot ||
                                   (strain == StrainMeasure::kGreenLagrange) == (sense == BarSense::kTension));
@@ -52,8 +63,13 @@ SlackBar::SlackBar(std::vector<MovingPlace> spans, double EA, double rest_length
   SetBar(traits);
 }
 
-SlackBar::SlackBar(const MovingPlace& span, double EA, double rest_length, const LawDofs& dofs)
-    : spans_{span}, rest_length_(rest_length), EA_(EA), sense_(1.0), strain_(StrainMeasure::kBiot) {
+SlackBar::SlackBar(const BarSpan& span, const Windings& windings, double EA, double rest_length, const LawDofs& dofs)
+    : spans_{span},
+      windings_(windings),
+      rest_length_(rest_length),
+      EA_(EA),
+      sense_(1.0),
+      strain_(StrainMeasure::kBiot) {
   Traits traits;
   traits.dofs = dofs;
   for (std::size_t k = 0; k <= dofs.size(); ++k) traits.moves[0][k] = true;
@@ -82,10 +98,30 @@ void SlackBar::SetBar(Traits traits) {
   SetLaw(traits, std::move(states));
 }
 
+double SlackBar::Least() const { return tolerances::kSmallShare * rest_length_; }
+
+double SlackBar::Wound(const Eigen::VectorXd& u, double s) const {
+  double wound = 0.0;
+  for (const auto& [turn, by_turn] : windings_)
+    wound += by_turn * (turn.dof >= 0 ? u[turn.dof] : turn.held + turn.rate * s);
+  return wound;
+}
+
+LawVector SlackBar::WoundGradient(const LawDofs& dofs) const {
+  const auto size = static_cast<Eigen::Index>(dofs.size());
+  LawVector gradient = LawVector::Zero(size + 1);
+  for (const auto& [turn, by_turn] : windings_)
+    if (turn.dof < 0)
+      gradient[size] += by_turn * turn.rate;
+    else
+      gradient[std::find(dofs.begin(), dofs.end(), turn.dof) - dofs.begin()] += by_turn;
+  return gradient;
+}
+
 SlackBar::Strain SlackBar::StrainAt(double q) const {
   const double l0 = rest_length_;
   // A slack string may have no length, where strains have no derivatives.
-  if (sense_ > 0.0) q = std::max(q, std::pow(tolerances::kSmallShare * l0, 2));
+  if (sense_ > 0.0) q = std::max(q, std::pow(Least(), 2));
   const double l = std::sqrt(q);
   switch (strain_) {
     case StrainMeasure::kBiot: return {(l - l0) / l0, 0.5 / (l0 * l), -0.25 / (l0 * l * q), 0.375 / (l0 * l * q * q)};
@@ -104,28 +140,28 @@ void SlackBar::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, const
   port.gradient = LawVector::Zero(size);
   port.hessian = LawMatrix::Zero(size, size);
   double strain = static_cast<double>(spans_.size() - 1);  // l / l0 of each span less 1
-  for (const MovingPlace& of : spans_) {
+  for (const auto& [of, rolled] : spans_) {
     const PlaceAt span(of, u, s);
-    const Eigen::Vector2d& d = span.x;
+    const auto& [d, arcs] = rolled.Of(span.x, Least());
     const Strain e = StrainAt(d.squaredNorm());
-    strain += e.value;
+    strain += e.value + arcs / rest_length_;
     const Eigen::Vector2d gradient = 2.0 * scale * e.first * d;
     port.gradient += Spread(LawVector(span.first.transpose() * gradient), of.Dofs(), OwnDofs());
     port.hessian += Spread(span.Hessian(gradient, scale * (2.0 * e.first * Eigen::Matrix2d::Identity() +
                                                            4.0 * e.second * d * d.transpose())),
                            of.Dofs(), OwnDofs());
   }
-  port.motion = scale * strain;
+  port.motion = scale * (strain + Wound(u, s) / rest_length_);
+  port.gradient += scale / rest_length_ * WoundGradient(OwnDofs());
 }
 
 void SlackBar::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
                             const LawVector& weights, LawMatrix* hessian) const {
   *hessian = LawMatrix::Zero(weights.size(), weights.size());
-  for (const MovingPlace& of : spans_) {
+  for (const auto& [of, rolled] : spans_) {
     const PlaceAt span(of, u, s);
     const LawVector own = Gathered(weights, OwnDofs(), of.Dofs());
-    const Eigen::Vector2d& d = span.x;
-    const Eigen::Vector2d v = span.first * own;
+    const Eigen::Vector2d d = rolled.Of(span.x, Least()).tangent, v = rolled.TangentChange(d, span.first * own);
     const Strain e = StrainAt(d.squaredNorm());
     const double along = d.dot(v), scale = -forces[0] * sense_ * rest_length_;
     const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
@@ -151,27 +187,36 @@ Mode SlackBar::Initial(const Eigen::VectorXd& u, double s) const {
   return {Motion(0, u, s, 0, {}) > tolerances::kActive ? kSlack : kTaut, 0};
 }
 
+Windings WindingsOf(const Tendon& tendon, const Scene& scene, const SceneIndex& index, const Structure& structure) {
+  Windings windings;
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+    const std::string& body = BodyOfDrum(tendon, end, scene, index);
+    if (body.empty()) continue;
+    const double rho = SignedRadius(tendon, end == 0 ? 0 : tendon.nodes.size() - 1);
+    windings[end] = {structure.FrameOfBody(static_cast<int>(index.Node(body))).angle, end == 0 ? -rho : rho};
+  }
+  return windings;
+}
+
 std::vector<std::unique_ptr<const SlackBar>> BuildSlackBars(const Scene& scene, const SceneIndex& index,
                                                             const Structure& structure,
                                                             const std::vector<double>& reference) {
   std::vector<std::unique_ptr<const SlackBar>> bars;
   for (const OneSidedBar& bar : OneSidedBars(scene)) {
-    if (bar.piece != nullptr) {
-      bars.push_back(std::make_unique<const TendonSpan>(MakeSpan(*bar.piece, scene, index, structure)));
+    if (bar.tendon != nullptr && bar.tendon->IsPiece()) {
+      bars.push_back(std::make_unique<const TendonSpan>(MakeSpan(*bar.tendon, scene, index, structure)));
       continue;
     }
-    std::vector<MovingPlace> spans;
-    double length = 0.0;
-    for (std::size_t k = 1; k < bar.nodes->size(); ++k) {
-      const std::size_t first = index.Node((*bar.nodes)[k - 1]), second = index.Node((*bar.nodes)[k]);
-      length += Eigen::Vector2d(reference[2 * second] - reference[2 * first],
-                                reference[2 * second + 1] - reference[2 * first + 1])
-                    .norm();
-      spans.push_back(MovingPlace::Between(structure.PointOf(static_cast<int>(first)),
-                                           structure.PointOf(static_cast<int>(second))));
-    }
+    std::vector<int> nodes;
+    for (const std::string& name : *bar.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
+    const TendonRoute route = RouteOf(bar.tendon != nullptr ? *bar.tendon : Tendon(), PointsOf(nodes, reference));
+    std::vector<BarSpan> spans;
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+      spans.push_back(
+          {MovingPlace::Between(structure.PointOf(nodes[k]), structure.PointOf(nodes[k + 1])), route.spans[k]});
     bars.push_back(std::make_unique<const SlackBar>(
-        std::move(spans), bar.EA, bar.rest_length > 0.0 ? bar.rest_length : length, bar.strain, bar.sense));
+        std::move(spans), bar.tendon != nullptr ? WindingsOf(*bar.tendon, scene, index, structure) : Windings(), bar.EA,
+        bar.rest_length > 0.0 ? bar.rest_length : route.length, bar.strain, bar.sense));
   }
   return bars;
 }

@@ -18,6 +18,7 @@
 #include "contact_path/path/machine_setting.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
+#include "contact_path/path/roller_end.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/path/trace_end.h"
@@ -183,6 +184,12 @@ class Tracer {
     return not_started ? EndWith(*std::move(not_started)) : FollowStage(model, stage, std::move(method));
   }
 
+  // Where the point is at the end of what the scene describes.
+  std::optional<Cause> EndOfScene(const Model& model) const {
+    const std::optional<Cause> friction = FrictionEnds(model).At(point_);
+    return friction ? friction : RollerEnds(model).At(point_);
+  }
+
   // The same from an increment inside.
   bool ResumeStage(const Model& model, std::size_t stage, const Resumption& resumption) {
     const Residuals residuals = model.Check(point_, point_);
@@ -195,8 +202,7 @@ class Tracer {
     if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
     if (IsAt(target)) return EndStage(stage);
-    if (const std::optional<Cause> friction = FrictionEnds(model).At(point_))
-      return EndBy(EndReason::kPathEnd, *friction);
+    if (const std::optional<Cause> beyond = EndOfScene(model)) return EndBy(EndReason::kPathEnd, *beyond);
     const PathPoint before = model.FromIncrement(*resumption.before);
     may_snap_ = MaySnap(resumption.from->stability, request_.options.method == Method::kBranch);
     if (const std::optional<Cause> escape =
@@ -290,8 +296,7 @@ class Tracer {
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
     stop_.Note(recorder_.increment());
     if (IsAt(target)) return true;
-    if (const std::optional<Cause> friction = FrictionEnds(model).At(point_))
-      return EndBy(EndReason::kPathEnd, *friction);
+    if (const std::optional<Cause> beyond = EndOfScene(model)) return EndBy(EndReason::kPathEnd, *beyond);
     if (const std::optional<Cause> escape =
             Escape({request_, model, point_, before, target, largest_reaction_.of_trace, largest_load_, may_snap_}))
       return EndBy(EndReason::kPathEnd, *escape);

@@ -10,6 +10,7 @@
 
 #include "contact_path/path/friction_end.h"
 #include "contact_path/path/recorder.h"
+#include "contact_path/path/roller_end.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/change_units.h"
 #include "contact_path/scene/quantity.h"
@@ -153,6 +154,7 @@ ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, st
   for (const Samples& samples : request.options.at)
     Add(model, request, stage, setting, system, samples.quantity, samples.Values(), 0.0, -1, &targets);
   FrictionEnds(model).AddTo(&targets);
+  RollerEnds(model).AddTo(&targets);
   return targets;
 }
 

@@ -292,7 +292,7 @@ std::vector<OneSidedBar> OneSidedBars(const Scene& scene) {
   for (std::size_t i = 0; i < scene.tendons.size(); ++i) {
     const Tendon& tendon = scene.tendons[i];
     bars.push_back({TendonName(tendon, i), &tendon.nodes, tendon.EA, tendon.rest_length, StrainMeasure::kBiot,
-                    BarSense::kTension, tendon.IsPiece() ? &tendon : nullptr});
+                    BarSense::kTension, &tendon});
   }
   return bars;
 }

@@ -124,6 +124,7 @@ class StructureRules {
       CheckTwoNodes(&checker_, nodes, element.nodes);
     } else if constexpr (std::is_same_v<Part, Tendon>) {
       CheckSpans(nodes, element.nodes, element.IsPiece());
+      CheckRollers(path, element);
       if (element.friction > 0.0 && element.nodes.size() == 2)
         checker_.Add(path.Key("friction"), NumberText(element.friction), "must be 0 without a node between its ends");
     } else if constexpr (std::is_same_v<Part, Pin>) {
@@ -161,6 +162,33 @@ class StructureRules {
       checker_.Add(key, ListText(nodes),
                    "must have at most " + std::to_string(kMostTendonUnknowns) + " unknowns that move its nodes: has " +
                        std::to_string(unknowns.size()));
+  }
+
+  void CheckRollers(const KeyPath& path, const Tendon& tendon) {
+    const std::size_t count = tendon.nodes.size();
+    for (const auto& [name, list] : {std::pair("radii", &tendon.radii), std::pair("turns", &tendon.turns)})
+      if (list->size() != tendon.radii.size() || (!list->empty() && list->size() != count))
+        return checker_.Add(path.Key(name), std::to_string(list->size()) + " numbers",
+                            "must have one for each node: " + std::to_string(tendon.radii.empty() ? 0 : count));
+    for (std::size_t i = 0; i < tendon.radii.size(); ++i) {
+      const double turns = tendon.turns[i];
+      if (turns != std::round(turns) || std::abs(turns) > kMostTurns)
+        return checker_.Add(path.Key("turns")[i], NumberText(turns),
+                            "must be a whole number up to " + NumberText(kMostTurns));
+      if ((turns == 0.0) != (tendon.radii[i] == 0.0))
+        return checker_.Add(path.Key("turns")[i], NumberText(turns), "must be 0 where the radius is, and only there");
+    }
+    for (std::size_t i = 0; i < tendon.radii.size(); ++i) {
+      const Node *const node = checker_.KnownNode(tendon.nodes[i]), *const next =
+                                                                        i + 1 < count
+                                                                            ? checker_.KnownNode(tendon.nodes[i + 1])
+                                                                            : nullptr;
+      if (node != nullptr && next != nullptr && !SpanIsSound(tendon, i, {next->x - node->x, next->y - node->y}))
+        return checker_.Add(path.Key("radii")[i + 1], NumberText(tendon.radii[i + 1]),
+                            "must leave room for the string between the roller and the one before");
+    }
+    if (tendon.pulley == Pulley::kFree && tendon.friction > 0.0)
+      checker_.Add(path.Key("friction"), NumberText(tendon.friction), "must be 0 where the pulleys turn freely");
   }
 
   void CheckPinned(const KeyPath& key, const Pin& pin) {

@@ -45,7 +45,7 @@ Number EvenStrain::EnergyOf(const std::vector<Number>& values) const {
       else
         rest -= slid;
     }
-    return sqrt(Number(dx * dx + dy * dy)) / rest;
+    return sqrt(Number(dx * dx + dy * dy)) / rest * Constant<Number>(piece.per_distance);
   };
   const Number uneven = ratio(before_) - ratio(behind_);
   return Constant<Number>(0.5 * stiffness_) * Number(uneven * uneven);

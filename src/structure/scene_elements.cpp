@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/tendon_route.h"
 #include "contact_path/structure/bar.h"
 #include "contact_path/structure/beam.h"
 #include "contact_path/structure/even_strain.h"
@@ -54,80 +55,27 @@ class LinearSuperelement : public Element {
   std::vector<LocalDof> dofs_;
 };
 
-// W = EA (l - l0)^2 / (2 l0) of the length l along the nodes, where it is > l0: of a tendon, whose forces are asked
-// for.
+// A tendon or a piece of one, whose forces are asked for: W = EA (l - a)^2 / (2 a) of the length l along its nodes and
+// rollers, where that is > a. Its nodes, then those whose x tells what has slid in or out, then the bodies with which
+// the rollers at its ends turn.
 class TendonElement : public Element {
  public:
-  TendonElement(double EA, double rest_length, int num_nodes)
-      : stiffness_(EA / rest_length), rest_length_(rest_length), dofs_(PositionsOfNodes(num_nodes)) {}
-
-  const std::vector<LocalDof>& Dofs() const override { return dofs_; }
-  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
-    const double longer = Longer(x);
-    return 0.5 * stiffness_ * longer * longer;
-  }
-  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
-    force.setZero();
-    AddPull(x, stiffness_ * Longer(x), force);
-  }
-  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
-    tangent.setZero();
-    const double tension = stiffness_ * Longer(x);
-    if (!(tension > 0.0)) return;
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
-    AddPull(x, 1.0, gradient);
-    tangent = stiffness_ * gradient * gradient.transpose();
-    ForEachSpan(x, [&](Eigen::Index k, const Eigen::Vector2d& direction, double length) {
-      const Eigen::Matrix2d across =
-          tension / length * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
-      tangent.block<2, 2>(k, k) += across;
-      tangent.block<2, 2>(k + 2, k + 2) += across;
-      tangent.block<2, 2>(k, k + 2) -= across;
-      tangent.block<2, 2>(k + 2, k) -= across;
-    });
-  }
-  // Paths are traced with its law (law/slack_bar.h).
-  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>&, const Eigen::Ref<const Eigen::VectorXd>&,
-                         Eigen::Ref<Eigen::MatrixXd> derivative) const override {
-    derivative.setConstant(std::numeric_limits<double>::quiet_NaN());
-  }
-
- private:
-  template <typename Visit>
-  static void ForEachSpan(const Eigen::Ref<const Eigen::VectorXd>& x, Visit&& visit) {
-    for (Eigen::Index k = 0; k + 2 < x.size(); k += 2) {
-      const Eigen::Vector2d span = x.segment<2>(k + 2) - x.segment<2>(k);
-      if (const double length = span.norm(); length > 0.0) visit(k, span / length, length);
-    }
-  }
-  // By how much than l0; 0 where it is slack.
-  double Longer(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-    double sum = 0.0;
-    ForEachSpan(x, [&](Eigen::Index, const Eigen::Vector2d&, double length) { sum += length; });
-    return std::max(sum - rest_length_, 0.0);
-  }
-  static void AddPull(const Eigen::Ref<const Eigen::VectorXd>& x, double tension, Eigen::Ref<Eigen::VectorXd> force) {
-    ForEachSpan(x, [&](Eigen::Index k, const Eigen::Vector2d& direction, double) {
-      force.segment<2>(k) -= tension * direction;
-      force.segment<2>(k + 2) += tension * direction;
-    });
-  }
-
-  double stiffness_, rest_length_;
-  std::vector<LocalDof> dofs_;
-};
-
-// A piece of a tendon with friction, whose tension is asked for: of two nodes, and then of those whose x tells what has
-// slid in or out.
-class PieceElement : public Element {
- public:
-  // senses: 1 of what slides in, -1 of what slides out; at the start: at `starts`.
-  PieceElement(double EA, double rest_length, std::vector<double> senses, std::vector<double> starts)
+  // sense: 1 of what slides in, -1 of what slides out; start: its x at the start.
+  struct Slide {
+    double sense, start;
+  };
+  // rest: a without what has slid. by_turn: of each of the bodies [length/rad].
+  TendonElement(double EA, double rest, std::vector<RolledSpan> spans, std::vector<Slide> slides,
+                std::vector<double> by_turn)
       : EA_(EA),
-        rest_length_(rest_length),
-        senses_(std::move(senses)),
-        starts_(std::move(starts)),
-        dofs_(PositionsOfNodes(2 + static_cast<int>(senses_.size()))) {}
+        rest_(rest),
+        spans_(std::move(spans)),
+        slides_(std::move(slides)),
+        by_turn_(std::move(by_turn)),
+        dofs_(PositionsOfNodes(static_cast<int>(spans_.size() + 1 + slides_.size()))) {
+    for (std::size_t k = 0; k < by_turn_.size(); ++k)
+      dofs_.push_back({static_cast<int>(spans_.size() + 1 + slides_.size() + k), Field::kRotation, 0});
+  }
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
@@ -136,15 +84,23 @@ class PieceElement : public Element {
   }
   void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
     const double tension = Tension(x);
-    const Eigen::Vector2d span = x.segment<2>(2) - x.head<2>();
     force.setZero();
     if (!(tension > 0.0)) return;
-    force.head<2>() = -tension * span.normalized();
-    force.segment<2>(2) = tension * span.normalized();
-    for (std::size_t k = 0; k < senses_.size(); ++k)
-      force[4 + 2 * static_cast<Eigen::Index>(k)] = -senses_[k] * tension * (1.0 + 0.5 * tension / EA_);
+    Eigen::Index k = 0;
+    for (const RolledSpan& span : spans_) {
+      const Eigen::Vector2d pull = tension * span.Of(x.segment<2>(k + 2) - x.segment<2>(k), 0.0).tangent.normalized();
+      force.segment<2>(k) -= pull;
+      force.segment<2>(k + 2) += pull;
+      k += 2;
+    }
+    k = FirstSlide();
+    for (const Slide& slide : slides_) {
+      force[k] = -slide.sense * tension * (1.0 + 0.5 * tension / EA_);
+      k += 2;
+    }
+    for (const double by_turn : by_turn_) force[k++] = by_turn * tension;
   }
-  // Paths are traced with its law (law/tendon_span.h).
+  // Paths are traced with its laws (law/slack_bar.h, law/tendon_span.h).
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
     tangent.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
@@ -154,18 +110,33 @@ class PieceElement : public Element {
   }
 
  private:
+  Eigen::Index FirstSlide() const { return 2 * static_cast<Eigen::Index>(spans_.size() + 1); }
   double Rest(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-    double rest = rest_length_;
-    for (std::size_t k = 0; k < senses_.size(); ++k)
-      rest += senses_[k] * (x[4 + 2 * static_cast<Eigen::Index>(k)] - starts_[k]);
+    double rest = rest_;
+    Eigen::Index k = FirstSlide();
+    for (const Slide& slide : slides_) {
+      rest += slide.sense * (x[k] - slide.start);
+      k += 2;
+    }
     return rest;
   }
   double Tension(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-    return EA_ * std::max((x.segment<2>(2) - x.head<2>()).norm() / Rest(x) - 1.0, 0.0);
+    double length = 0.0;
+    Eigen::Index k = 0;
+    for (const RolledSpan& span : spans_) {
+      const RolledSpan::At at = span.Of(x.segment<2>(k + 2) - x.segment<2>(k), 0.0);
+      length += at.tangent.norm() + at.arcs;
+      k += 2;
+    }
+    k = FirstSlide() + 2 * static_cast<Eigen::Index>(slides_.size());
+    for (const double by_turn : by_turn_) length += by_turn * x[k++];
+    return EA_ * std::max(length / Rest(x) - 1.0, 0.0);
   }
 
-  double EA_, rest_length_;
-  std::vector<double> senses_, starts_;
+  double EA_, rest_;
+  std::vector<RolledSpan> spans_;
+  std::vector<Slide> slides_;
+  std::vector<double> by_turn_;
   std::vector<LocalDof> dofs_;
 };
 
@@ -218,27 +189,25 @@ void Place(const Bar& bar, std::vector<int> nodes, const std::vector<double>& re
   elements->push_back({std::make_unique<BarElement>(bar.EA, rest_length, bar.strain, bar.sense), std::move(nodes)});
 }
 
-void Place(const Tendon& tendon, std::vector<int> nodes, const std::vector<double>& reference,
-           std::vector<PlacedElement>* elements) {
-  const Eigen::VectorXd places = PositionsOf(nodes, reference);
-  if (tendon.IsPiece()) {
-    std::vector<double> senses, starts;
-    for (const bool in : {true, false})
-      if (!tendon.slides[in ? 0 : 1].empty()) {
-        starts.push_back(places[4 + 2 * static_cast<Eigen::Index>(senses.size())]);
-        senses.push_back(in ? 1.0 : -1.0);
-      }
-    elements->push_back(
-        {std::make_unique<PieceElement>(tendon.EA, tendon.rest_length, std::move(senses), std::move(starts)),
-         std::move(nodes)});
-    return;
-  }
-  double length = 0.0;
-  for (Eigen::Index k = 0; k + 2 < places.size(); k += 2)
-    length += (places.segment<2>(k + 2) - places.segment<2>(k)).norm();
+void Place(const Tendon& tendon, std::vector<int> nodes, const Scene& scene, const SceneIndex& index,
+           const std::vector<double>& reference, std::vector<PlacedElement>* elements) {
+  const TendonRoute route = RouteOf(tendon, PointsOf(nodes, reference));
+  std::vector<TendonElement::Slide> slides;
+  for (const bool in : {true, false})
+    if (const std::string& slide = tendon.slides[in ? 0 : 1]; !slide.empty()) {
+      const std::size_t node = index.Node(slide);
+      slides.push_back({in ? 1.0 : -1.0, reference[2 * node]});
+      nodes.push_back(static_cast<int>(node));
+    }
+  std::vector<double> by_turn;
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+    if (const std::string& body = BodyOfDrum(tendon, end, scene, index); !body.empty()) {
+      by_turn.push_back(route.by_turn[end]);
+      nodes.push_back(static_cast<int>(index.Node(body)));
+    }
   elements->push_back(
-      {std::make_unique<TendonElement>(tendon.EA, tendon.rest_length > 0.0 ? tendon.rest_length : length,
-                                       static_cast<int>(nodes.size())),
+      {std::make_unique<TendonElement>(tendon.EA, tendon.rest_length > 0.0 ? tendon.rest_length : route.length,
+                                       route.spans, std::move(slides), std::move(by_turn)),
        std::move(nodes)});
 }
 
@@ -280,6 +249,11 @@ PlacedElement EvenStrainAt(const ContactCandidate& eye, const Scene& scene, cons
     EA = tendon.EA;
     EvenStrain::Piece of;
     of.rest = tendon.rest_length;
+    if (!tendon.radii.empty()) {
+      const Node &first = scene.nodes[index.Node(tendon.nodes[0])], &second = scene.nodes[index.Node(tendon.nodes[1])];
+      const std::vector<Eigen::Vector2d> points = {{first.x, first.y}, {second.x, second.y}};
+      of.per_distance = RouteOf(tendon, points).length / (points[1] - points[0]).norm();
+    }
     for (std::size_t k = 0; k < 2; ++k) {
       of.nodes[k] = local(tendon.nodes[k]);
       if (const std::string& slide = tendon.slides[k]; !slide.empty())
@@ -331,9 +305,9 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
         std::vector<int> nodes;
         for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
         if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Tendon>)
-          for (const std::string& slide : part.slides)
-            if (!slide.empty()) nodes.push_back(static_cast<int>(index.Node(slide)));
-        Place(part, std::move(nodes), reference, &elements);
+          Place(part, std::move(nodes), scene, index, reference, &elements);
+        else
+          Place(part, std::move(nodes), reference, &elements);
       }
     }
   });

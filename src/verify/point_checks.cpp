@@ -10,6 +10,7 @@
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/field.h"
+#include "contact_path/scene/tendon_route.h"
 
 namespace contact_path {
 namespace {
@@ -99,22 +100,22 @@ void PointChecks::CheckBars(const Increment& at, double tolerance) {
   const std::vector<OneSidedBar> bars = OneSidedBars(stage_.scene);
   for (std::size_t k = 0; k < bars.size(); ++k) {
     const OneSidedBar& bar = bars[k];
-    const auto length = [&](const std::vector<double>& positions) {
-      double sum = 0.0;
-      for (std::size_t i = 1; i < bar.nodes->size(); ++i) {
-        const std::size_t a = stage_.index.Node((*bar.nodes)[i - 1]), b = stage_.index.Node((*bar.nodes)[i]);
-        sum += std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
+    std::vector<int> nodes;
+    for (const std::string& name : *bar.nodes) nodes.push_back(static_cast<int>(stage_.index.Node(name)));
+    const TendonRoute route =
+        RouteOf(bar.tendon != nullptr ? *bar.tendon : Tendon(), PointsOf(nodes, stage_.configuration.reference));
+    double rest = bar.rest_length > 0.0 ? bar.rest_length : route.length;
+    std::array<double, 2> turned = {};
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+      if (bar.tendon == nullptr) continue;
+      if (const std::string& slide = bar.tendon->slides[end]; !slide.empty()) {
+        const std::size_t node = stage_.index.Node(slide);
+        rest += (end == 0 ? 1.0 : -1.0) * (at.positions[2 * node] - stage_.scene.nodes[node].x);
       }
-      return sum;
-    };
-    double rest = bar.rest_length > 0.0 ? bar.rest_length : length(stage_.configuration.reference);
-    if (bar.piece != nullptr)
-      for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
-        if (const std::string& slide = bar.piece->slides[end]; !slide.empty()) {
-          const std::size_t node = stage_.index.Node(slide);
-          rest += (end == 0 ? 1.0 : -1.0) * (at.positions[2 * node] - stage_.scene.nodes[node].x);
-        }
-    const double longer = (length(at.positions) - rest) / stage_.scaling.length;
+      if (const std::string& body = BodyOfDrum(*bar.tendon, end, stage_.scene, stage_.index); !body.empty())
+        turned[end] = at.rotations[stage_.index.Node(body)];
+    }
+    const double longer = (LengthOn(route, PointsOf(nodes, at.positions), turned) - rest) / stage_.scaling.length;
     const bool taut = at.bars[k] == BarState::kTaut;
     if ((bar.sense == BarSense::kTension) == taut ? longer < -tolerance : longer > tolerance)
       findings_.Report("bar ", bar.name, " is recorded as ", ToString(at.bars[k]), ", but is not");

@@ -9,18 +9,25 @@
 
 namespace contact_path {
 
-// The tensions T1 before and T2 behind an eye round which the tendon turns by phi differ by at most
+// The tensions T1 before and T2 behind an eye round which the tendon turns by phi, or is wrapped, differ by at most
 // |T2 - T1| <= tanh(mu phi / 2) (T1 + T2), that is exp(-mu phi) <= T2 / T1 <= exp(mu phi). As a contact: port 0 has the
 // force N = T1 + T2, which is a function of the place and acts on nothing, and the motion -c N, the gap where the
 // tendon is slack; port 1 has for its motion w, what has slid from the span before to the span behind [length], and a
 // force of which |force| <= N, with the factor tanh(mu phi / 2) (1 + N / (2 EA)): with the factor it is
 // T1 + T1^2 / (2 EA) - T2 - T2^2 / (2 EA), since a string that stretches slides faster where it bears more. Where
-// the tendon is nearly straight phi is rounded, phi + e ln(1 + exp(-2 phi / e)) with e = 1e-3, so that it has
-// derivatives there: from 0.02 on by nothing that shows.
+// the tendon is nearly straight at an eye without a radius phi is rounded, phi + e ln(1 + exp(-2 phi / e)) with e =
+// 1e-3, so that it has derivatives there: from 0.02 on by nothing that shows.
 class TendonEye : public ContactPair {
  public:
-  // before, behind: of one tendon. slid: dof >= 0, of both. friction: mu > 0. force_unit: of the spans.
-  TendonEye(const TendonSpan& before, const TendonSpan& behind, const Coordinate& slid, double friction);
+  // Round which the tendon is wrapped by phi = wrapped + sense (what the spans turn by since the start). sense: 1
+  // counterclockwise, -1 clockwise; 0: an eye without a radius, phi > 0 as an angle between the spans.
+  struct Roller {
+    double sense = 0.0;
+    double wrapped = 0.0;  // at the start [rad], > 0
+  };
+  // before, behind: of one tendon. slid: dof >= 0, of both. friction: mu > 0.
+  TendonEye(const TendonSpan& before, const TendonSpan& behind, const Coordinate& slid, double friction,
+            const Roller& roller);
 
   void Evaluate(const Eigen::VectorXd& u, double s, int piece, const PortReals& reference,
                 PortsAt* ports) const override;
@@ -50,8 +57,9 @@ class TendonEye : public ContactPair {
   XiRange RangeOf(int patch) const override;
 
  private:
-  // A function of (dx1, dy1, a1, dx2, dy2, a2) of the spans.
-  static constexpr int kLocals = 6;
+  // A function of (dx1, dy1, w1, a1, dx2, dy2, w2, a2) of the spans: from node to node, what is wound with the arcs at
+  // the start, the length at rest.
+  static constexpr int kLocals = 8;
   using Gradient = Eigen::Matrix<double, kLocals, 1>;
   using Hessian = Eigen::Matrix<double, kLocals, kLocals>;
   struct Function {
@@ -71,6 +79,7 @@ class TendonEye : public ContactPair {
   TendonSpan before_, behind_;
   Coordinate slid_;
   double friction_;
+  Roller roller_;
   double compliance_;
 };
 

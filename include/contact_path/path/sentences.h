@@ -68,6 +68,10 @@ inline constexpr Sentence kOpenAndDrifts =
     "goes on";
 inline constexpr Sentence kFrictionEnds =
     "the friction of obstacle <name> falls to 0 at load factor <digits>: beyond, it would be negative";
+inline constexpr Sentence kComesOff =
+    "tendon <name> comes off its roller: nothing is left of the angle by which it is wrapped";
+inline constexpr Sentence kStringTurns =
+    "tendon <name> has turned by nearly half a turn between two rollers: what it is wrapped by is not known beyond";
 
 // Steps and points that are refused.
 inline constexpr Sentence kNoIncrement = "no increment could be accepted, however short:";

@@ -19,14 +19,14 @@ std::string SolidName(const Solid& solid, std::size_t place);
 std::string TendonName(const Tendon& tendon, std::size_t place);
 std::string PinName(const Pin& pin, std::size_t place);
 
-// What bears in one sense alone: a bar, or a tendon, whose length is that from node to node.
+// What bears in one sense alone: a bar, or a tendon, whose length is that along its route (tendon_route.h).
 struct OneSidedBar {
   std::string name;
   const std::vector<std::string>* nodes;  // of the scene
   double EA, rest_length;                 // rest_length: as the scene has it
   StrainMeasure strain;
   BarSense sense;
-  const Tendon* piece = nullptr;  // of a tendon with friction
+  const Tendon* tendon = nullptr;  // null: a bar
 };
 
 // Bars, then tendons, in the order of the scene.

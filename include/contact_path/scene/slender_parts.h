@@ -59,20 +59,38 @@ constexpr auto Fields(Of<Bar>) {
                     Member("strain", &P::strain), Member("sense", &P::sense), Member("name", &P::name));
 }
 
+// Whether friction acts at the round rollers of a tendon, or they turn with it.
+enum class Pulley { kFixed, kFree };
+
+template <>
+struct Words<Pulley> {
+  static constexpr Pulley kDefault = Pulley::kFixed;
+  static constexpr std::pair<std::string_view, Pulley> kAll[] = {{"fixed", Pulley::kFixed}, {"free", Pulley::kFree}};
+};
+
 // String from its first node through the others, along which it slides, to the last one. It bears tension alone.
-// Without friction: energy EA l0 e^2 / 2, e = l / l0 - 1 >= 0 with the sum l of the distances from node to node. With
-// friction each piece from node to node has an energy of its own, and the tensions before and behind a node round which
-// the string turns by phi differ by at most the factor exp(friction phi).
+// Without friction: energy EA l0 e^2 / 2, e = l / l0 - 1 >= 0 with the length l from node to node and round the rollers
+// about nodes. With friction each piece from node to node has an energy of its own, and the tensions before and behind
+// a node round which the string turns by phi differ by at most the factor exp(friction phi). On a drum, a roller at an
+// end of it, the string is wound.
 struct Tendon {
   std::string name;                // of the column of its state; empty = "tendon<place in the list, from 1>"
   std::vector<std::string> nodes;  // two names at least; a name may come again
   double EA = 0.0;                 // [force], > 0
-  double rest_length = 0.0;        // l0 [length]; 0 = the sum of the distances at the start
+  double rest_length = 0.0;        // l0 [length]; 0 = l at the start
   double friction = 0.0;           // Coulomb's coefficient at each node but the first and the last
+  // Of round rollers about the nodes [length], 0: none; empty = none at all. A roller turns with the body of its node.
+  std::vector<double> radii = {};
+  // By node, of a roller: > 0 where the string goes round it counterclockwise, < 0 clockwise; 1 and -1 between the ends
+  // wrap less than a whole turn at the start, each one more is a turn more; at an end the turns wound at the start.
+  std::vector<double> turns = {};
+  Pulley pulley = Pulley::kFixed;  // free: there is no friction at rollers
 
   // Of one of the pieces that a tendon with friction is in an expanded scene: the nodes whose x tells what has slid
   // through its first eye and its second one; empty at an end of the tendon. No field.
   std::array<std::string, 2> slides = {};
+  // Of a piece: the angles by which it is wrapped round its rollers at the start [rad], >= 0. No field.
+  std::array<double, 2> wrapped = {};
   bool IsPiece() const { return !slides[0].empty() || !slides[1].empty(); }
 };
 
@@ -81,7 +99,9 @@ constexpr auto Fields(Of<Tendon>) {
   return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes).Naming(TextKind::kNode),
                     Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
                     Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive),
-                    Member("friction", &P::friction).Within(Range::kZeroOrPositive));
+                    Member("friction", &P::friction).Within(Range::kZeroOrPositive),
+                    Member("radii", &P::radii).In(units::kLength).Within(Range::kZeroOrPositive),
+                    Member("turns", &P::turns), Member("pulley", &P::pulley));
 }
 
 // Two nodes that stay together, and turn freely against each other or by a rotational spring between what turns with

@@ -17,7 +17,8 @@ namespace contact_path {
 class EvenStrain : public Element {
  public:
   struct Piece {
-    double rest = 0.0;  // at the start [length]
+    double rest = 0.0;          // at the start [length]
+    double per_distance = 1.0;  // its length over the distance of its nodes at the start
     // By node of the element: what its x less `start` adds to the length at rest, per length.
     struct Slide {
       int node;

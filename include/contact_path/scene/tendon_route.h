@@ -1,0 +1,46 @@
+// The way of a tendon from node to node and round rollers.
+#ifndef CONTACT_PATH_SCENE_TENDON_ROUTE_H_
+#define CONTACT_PATH_SCENE_TENDON_ROUTE_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "contact_path/geometry/rolled_span.h"
+#include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
+
+namespace contact_path {
+
+// rho of RolledSpan at a node of the tendon [length]; 0: it has no roller there.
+double SignedRadius(const Tendon& tendon, std::size_t node);
+
+// Whether a string can go from node `span` to the next one, d apart, where their rollers are apart as well.
+bool SpanIsSound(const Tendon& tendon, std::size_t span, const Eigen::Vector2d& d);
+
+struct TendonRoute {
+  std::vector<RolledSpan> spans;
+  std::vector<double> wrapped;  // by node, round its roller at the start [rad], >= 0
+  double length = 0.0;          // at the start, with arcs
+  // What each end adds to the length per angle by which its roller turns [length].
+  std::array<double, 2> by_turn = {};
+};
+
+// x, y of each of these nodes.
+std::vector<Eigen::Vector2d> PointsOf(const std::vector<int>& nodes, const std::vector<double>& positions);
+
+// points: by node of the tendon, at the start; no span is shorter than the difference of the signed radii.
+TendonRoute RouteOf(const Tendon& tendon, const std::vector<Eigen::Vector2d>& points);
+
+// The body with which the roller at the first end (0) or the last one (1) of the tendon, or of a piece, turns; empty:
+// there is none.
+const std::string& BodyOfDrum(const Tendon& tendon, std::size_t end, const Scene& scene, const SceneIndex& index);
+
+// The length at places of its nodes, with the rollers at its ends turned by these angles since the start.
+double LengthOn(const TendonRoute& route, const std::vector<Eigen::Vector2d>& points,
+                const std::array<double, 2>& turned);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_TENDON_ROUTE_H_

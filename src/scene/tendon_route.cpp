@@ -1,0 +1,83 @@
+#include "contact_path/scene/tendon_route.h"
+
+#include <cmath>
+
+#include "contact_path/geometry/plane.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kWholeTurn = 6.283185307179586;  // [rad]
+
+// From 0 to a whole turn.
+double Positive(double angle) { return angle < 0.0 ? angle + kWholeTurn : angle; }
+
+}  // namespace
+
+double SignedRadius(const Tendon& tendon, std::size_t node) {
+  if (node >= tendon.radii.size() || node >= tendon.turns.size()) return 0.0;
+  return std::copysign(tendon.radii[node], tendon.turns[node]);
+}
+
+bool SpanIsSound(const Tendon& tendon, std::size_t span, const Eigen::Vector2d& d) {
+  return d.norm() > std::abs(SignedRadius(tendon, span + 1) - SignedRadius(tendon, span));
+}
+
+std::vector<Eigen::Vector2d> PointsOf(const std::vector<int>& nodes, const std::vector<double>& positions) {
+  std::vector<Eigen::Vector2d> points;
+  for (const int node : nodes) {
+    const auto i = 2 * static_cast<std::size_t>(node);
+    points.emplace_back(positions[i], positions[i + 1]);
+  }
+  return points;
+}
+
+TendonRoute RouteOf(const Tendon& tendon, const std::vector<Eigen::Vector2d>& points) {
+  TendonRoute route;
+  route.wrapped.assign(points.size(), 0.0);
+  const std::size_t last = points.size() - 1;
+  std::vector<RolledSpan> bare;
+  for (std::size_t i = 0; i < last; ++i)
+    bare.emplace_back(SignedRadius(tendon, i), SignedRadius(tendon, i + 1), points[i + 1] - points[i], 0.0);
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double rho = SignedRadius(tendon, i);
+    if (rho == 0.0) continue;
+    double& angle = route.wrapped[i];
+    if (tendon.IsPiece())
+      angle = tendon.wrapped[i];
+    else if (i == 0 || i == last)
+      angle = kWholeTurn * std::abs(tendon.turns[i]);
+    else
+      angle = Positive((rho > 0.0 ? 1.0 : -1.0) * bare[i - 1].Turned(bare[i].StartDirection())) +
+              kWholeTurn * (std::abs(tendon.turns[i]) - 1.0);
+  }
+  // An arc is half that of the span before and half that of the span behind, at an end all that of its one span.
+  const auto share = [&](std::size_t i) {
+    const bool whole = tendon.IsPiece() || i == 0 || i == last;
+    return (whole ? 1.0 : 0.5) * std::abs(SignedRadius(tendon, i)) * route.wrapped[i];
+  };
+  for (std::size_t i = 0; i < last; ++i)
+    route.spans.emplace_back(SignedRadius(tendon, i), SignedRadius(tendon, i + 1), points[i + 1] - points[i],
+                             share(i) + share(i + 1));
+  route.by_turn = {-SignedRadius(tendon, 0), SignedRadius(tendon, last)};
+  route.length = LengthOn(route, points, {});
+  return route;
+}
+
+const std::string& BodyOfDrum(const Tendon& tendon, std::size_t end, const Scene& scene, const SceneIndex& index) {
+  static const std::string none;
+  const std::size_t node = end == 0 ? 0 : tendon.nodes.size() - 1;
+  return SignedRadius(tendon, node) != 0.0 ? scene.nodes[index.Node(tendon.nodes[node])].body : none;
+}
+
+double LengthOn(const TendonRoute& route, const std::vector<Eigen::Vector2d>& points,
+                const std::array<double, 2>& turned) {
+  double length = route.by_turn[0] * turned[0] + route.by_turn[1] * turned[1];
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const RolledSpan::At span = route.spans[i].Of(points[i + 1] - points[i], 0.0);
+    length += span.tangent.norm() + span.arcs;
+  }
+  return length;
+}
+
+}  // namespace contact_path
