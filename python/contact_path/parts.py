@@ -175,10 +175,13 @@ class Parts(Loading):
         self._add('pins', locals())
 
     @named
-    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0, friction: float = 0.0) -> None:
-        """A string through nodes, along which it slides: stiffness EA [force], rest_length [length], 0: the sum of the distances at the
-        start. It bears tension alone. friction: Coulomb's coefficient at the nodes between its ends, where the tensions before and behind
-        differ by at most the factor exp(friction angle)."""
+    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0, friction: float = 0.0,
+               radii: Numbers = (), turns: Numbers = (), pulley: str = '') -> None:
+        """A string through nodes, along which it slides: stiffness EA [force], rest_length [length], 0: its length at the start. It
+        bears tension alone. friction: Coulomb's coefficient at the nodes between its ends, where the tensions before and behind differ by
+        at most the factor exp(friction angle). By node: radii of round rollers [length], 0: none; turns, whole numbers: > 0 where it goes
+        round the roller counterclockwise, < 0 clockwise, each beyond 1 a whole turn more; at an end the turns wound on a drum, which turns
+        with the body of the node. pulley: fixed, or free, without friction at rollers."""
         self._add('tendons', locals())
 
     @named

@@ -22,6 +22,8 @@ inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a
 inline Vector operator*(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
 inline Real Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
 inline Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
+// The left of a direction.
+inline Vector Left(const Vector& v) { return {-v.y, v.x}; }
 // Of long double squares, which neither overflow nor vanish for finite doubles.
 inline Real Length(const Vector& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 

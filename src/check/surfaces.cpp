@@ -13,9 +13,6 @@
 namespace contact_path::check {
 namespace {
 
-// The left of a direction.
-Vector Left(const Vector& v) { return {-v.y, v.x}; }
-
 // n . (x - p) >= 0.
 class HalfPlane : public Surface {
  public:

@@ -12,9 +12,6 @@
 namespace contact_path::check {
 namespace {
 
-// What is left of v where it is turned by a right angle to the left.
-Vector Left(const Vector& v) { return {-v.y, v.x}; }
-
 // A tendon, or a piece of one: its way by the points where it touches its rollers and the arcs between them.
 class String {
  public:

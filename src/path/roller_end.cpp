@@ -61,18 +61,20 @@ RollerEnds::RollerEnds(const Model& model) : num_dofs_(model.structure.NumDofs()
         limit.both_senses = true;
       }
       const double rho = SignedRadius(*of.tendon, i), sense = rho > 0.0 ? 1.0 : -1.0;
-      const bool slides_in = i == 0 && !of.tendon->slides[0].empty();
-      if (rho == 0.0 || slides_in) continue;
+      if (rho == 0.0) continue;
+      const bool slides = i <= 1 && !of.tendon->slides[i].empty(), turns = windings[i == 0 ? 0 : 1].turn.Moves();
+      if (slides && i == 0 && !turns) continue;  // the piece before has the whole angle
       Limit limit{{sentences::kComesOff, of.name + " at " + of.tendon->nodes[i]}, of.route.wrapped[i], {}};
       if (i > 0) limit.turns.push_back({-sense, of.spans[i - 1]});
       if (i < last) limit.turns.push_back({sense, of.spans[i]});
-      if (i == last && !of.tendon->slides[1].empty()) {
+      if (slides && !turns) {
         const PlacedTendon& next = *std::find_if(tendons.begin(), tendons.end(), [&](const PlacedTendon& known) {
           return known.tendon->slides[0] == of.tendon->slides[1];
         });
         limit.start += next.route.wrapped[0];
         limit.turns.push_back({sense, next.spans[0]});
       } else if (i == 0 || i == last) {
+        if (slides) limit.cause.sentence = sentences::kHauled;
         limit.of_body = i == 0 ? -sense : sense;
         limit.body = windings[i == 0 ? 0 : 1].turn;
       }

@@ -4,10 +4,13 @@
 #include <set>
 
 #include "contact_path/scene/scaling.h"
+#include "contact_path/scene/tendon_route.h"
 #include "scene/rules.h"
 
 namespace contact_path {
 namespace {
+
+constexpr double kMostTurns = 100.0;  // of a tendon round a roller
 
 // "bar or superelement".
 std::string ElementKinds() {

@@ -10,7 +10,7 @@ LENGTH, FORCE, STRESS = (1, 0), (0, 1), (-2, 1)
 UNITS = {
     'nodes': {'x': LENGTH, 'y': LENGTH},
     'bodies': {'x': LENGTH, 'y': LENGTH},
-    'tendons': {'EA': FORCE, 'rest_length': LENGTH},
+    'tendons': {'EA': FORCE, 'rest_length': LENGTH, 'radii': LENGTH},
     'bars': {'EA': FORCE, 'rest_length': LENGTH},
     'pins': {'stiffness': (1, 1)},
     'superelements': {'stiffness': (-1, 1), 'rest_positions': LENGTH},
@@ -136,6 +136,8 @@ def mirrored(request):
         for entry in entries(request, name):
             if field in entry:
                 entry[field] = -entry[field]
+    for tendon in entries(request, 'tendons'):
+        tendon['turns'] = [-turn for turn in tendon.get('turns') or []]
     for obstacle in entries(request, 'obstacles'):  # the admissible side stays on the left
         points = obstacle.get('points') or []
         obstacle['points'] = [value for i in range(len(points) - 2, -1, -2) for value in points[i:i + 2]]

@@ -18,7 +18,8 @@
 namespace contact_path {
 
 // Paths end where the angle by which a tendon is wrapped round a roller has fallen to nothing, or that by which a drum
-// is wound: beyond, the string would be pushed by the roller from inside; and before a piece of a tendon between
+// is wound: beyond, the string would be pushed by the roller from inside; where a roller with friction that turns has
+// carried along what was the middle of the arc at the start to an end of it; and before a piece of a tendon between
 // unequal rollers has turned by half a turn since the start, where its angle is no longer known.
 class RollerEnds {
  public:

@@ -70,6 +70,9 @@ inline constexpr Sentence kFrictionEnds =
     "the friction of obstacle <name> falls to 0 at load factor <digits>: beyond, it would be negative";
 inline constexpr Sentence kComesOff =
     "tendon <name> comes off its roller: nothing is left of the angle by which it is wrapped";
+inline constexpr Sentence kHauled =
+    "tendon <name> has been hauled by the arc on one side of its roller: what a turn of the roller hauls beyond is not "
+    "described";
 inline constexpr Sentence kStringTurns =
     "tendon <name> has turned by nearly half a turn between two rollers: what it is wrapped by is not known beyond";
 
