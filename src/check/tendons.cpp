@@ -1,7 +1,6 @@
 #include "check/tendons.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -102,10 +101,6 @@ class String {
     }
     for (const Slide& slide : slides_) (*forces)[2 * slide.node] -= slide.sense * on_slides;
   }
-  // From node to node, of a piece.
-  Vector Chord(const std::vector<double>& values) const {
-    return NodePosition(values, nodes_[1]) - NodePosition(values, nodes_[0]);
-  }
 
  private:
   struct Span {
@@ -167,49 +162,39 @@ class TendonElement : public Element {
 constexpr Real kSoft = 1e-8L;
 constexpr Real kStraight = 1e-3L;  // [rad], round which the angle at an eye is rounded
 
-// W = k (l1 / a1 - l2 / a2)^2 / 2, k = kSoft EA times the shorter length at rest, of lengths that are the distance of
-// the nodes times what the length was over that at the start.
+// W = k (l1 / a1 - l2 / a2)^2 / 2, k = kSoft EA times the shorter length at rest.
 class EvenStrainElement : public Element {
  public:
-  EvenStrainElement(const String& before, const String& behind, const std::vector<double>& reference)
+  EvenStrainElement(String before, String behind)
       : Element(Kind::kLinearPart, Joined(before.Nodes(), behind.Nodes())),
-        pieces_{{{before, 1.0L, before.LengthIn(reference) / Length(before.Chord(reference))},
-                 {behind, -1.0L, behind.LengthIn(reference) / Length(behind.Chord(reference))}}},
-        stiffness_(kSoft * before.EA() * std::min(before.RestAtStart(), behind.RestAtStart())) {}
+        before_(std::move(before)),
+        behind_(std::move(behind)),
+        stiffness_(kSoft * before_.EA() * std::min(before_.RestAtStart(), behind_.RestAtStart())) {}
 
-  Real Stiffness() const override { return kSoft * pieces_[0].string.EA() / pieces_[0].string.RestAtStart(); }
+  Real Stiffness() const override { return kSoft * before_.EA() / before_.RestAtStart(); }
   void AddEnergy(const std::vector<double>& values, Real* energy) const override {
-    const Real uneven = pieces_[0].Ratio(values) - pieces_[1].Ratio(values);
+    const Real uneven = Ratio(before_, values) - Ratio(behind_, values);
     *energy += 0.5L * stiffness_ * uneven * uneven;
   }
   void AddForce(const std::vector<double>& values, std::vector<Real>* forces) const override {
-    const Real force = stiffness_ * (pieces_[0].Ratio(values) - pieces_[1].Ratio(values));
-    for (const Piece& piece : pieces_) {
-      const Vector span = piece.string.Chord(values);
-      const Real rest = piece.string.Rest(values);
-      const Vector pull = piece.sign * force * piece.per_distance / (rest * Length(span)) * span;
-      AddTo(forces, piece.string.Nodes()[0], -1.0L * pull);
-      AddTo(forces, piece.string.Nodes()[1], pull);
-      for (const String::Slide& slide : piece.string.Slides())
-        (*forces)[2 * slide.node] -= piece.sign * force * slide.sense * piece.Ratio(values) / rest;
+    const Real force = stiffness_ * (Ratio(before_, values) - Ratio(behind_, values));
+    for (const auto& [piece, sign] : {std::pair(&before_, 1.0L), std::pair(&behind_, -1.0L)}) {
+      const Real pull = sign * force / piece->Rest(values);
+      piece->AddPull(values, pull, pull * Ratio(*piece, values), forces);
     }
   }
 
  private:
-  struct Piece {
-    String string;
-    Real sign, per_distance;
-    Real Ratio(const std::vector<double>& values) const {
-      return per_distance * Length(string.Chord(values)) / string.Rest(values);
-    }
-  };
+  static Real Ratio(const String& piece, const std::vector<double>& values) {
+    return piece.LengthIn(values) / piece.Rest(values);
+  }
   static std::vector<std::size_t> Joined(std::vector<std::size_t> nodes, const std::vector<std::size_t>& more) {
     for (const std::size_t node : more)
       if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
     return nodes;
   }
 
-  std::array<Piece, 2> pieces_;
+  String before_, behind_;
   Real stiffness_;
 };
 
@@ -265,7 +250,7 @@ std::unique_ptr<const Element> MakeTendon(const Tendon& tendon, const Scene& sce
 std::unique_ptr<const Element> MakeEvenStrain(const ContactCandidate& eye, const Scene& scene,
                                               const NodeNumbers& numbers, const std::vector<double>& reference) {
   return std::make_unique<EvenStrainElement>(PieceAt(eye, 1, scene, numbers, reference),
-                                             PieceAt(eye, 0, scene, numbers, reference), reference);
+                                             PieceAt(eye, 0, scene, numbers, reference));
 }
 
 std::unique_ptr<const Contact> MakeEye(const ContactCandidate& eye, const Scene& scene, const NodeNumbers& numbers) {

@@ -7,32 +7,12 @@
 #include <set>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "structure/span_numbers.h"
+
 namespace contact_path {
 namespace {
 
 constexpr double kStraight = 1e-3;  // [rad]
-
-// Of a span from node to node: the direction of what is free of it, its length, and by how much it turned since the
-// start; dx, dy as they are where it has no radii.
-template <typename Number>
-struct FreeSpan {
-  FreeSpan(const RolledSpan& rolled, const Number& dx, const Number& dy) : x(dx), y(dy) {
-    using std::atan2;
-    using std::sqrt;
-    const Number square = dx * dx + dy * dy;
-    const double delta = rolled.Delta();
-    if (delta == 0.0) {
-      length = sqrt(square);
-    } else {
-      length = sqrt(Number(square - delta * delta));
-      x = length * dx + dy * delta;
-      y = length * dy - dx * delta;
-    }
-    if (const Eigen::Vector2d& start = rolled.StartDirection(); start != Eigen::Vector2d::Zero())
-      turned = atan2(Number(y * start.x() - x * start.y()), Number(x * start.x() + y * start.y()));
-  }
-  Number x, y, length, turned;
-};
 
 LawDofs AllDofs(const TendonSpan& before, const TendonSpan& behind) {
   std::set<int> dofs;
@@ -85,14 +65,14 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
   using std::tanh;
   const TendonSpan::State before = before_.At(u, s), behind = behind_.At(u, s);
   const Gradient values =
-      (Gradient() << before.span.x, before.Wound(), before.rest, behind.span.x, behind.Wound(), behind.rest).finished();
+      (Gradient() << before.span.x, before.wound, before.rest, behind.span.x, behind.wound, behind.rest).finished();
   std::array<Twice, kLocals> z;
   for (int k = 0; k < kLocals; ++k) {
     Once once(values[k], kLocals, k);
     z[static_cast<std::size_t>(k)] = Twice(once, kLocals, k);
   }
-  const FreeSpan<Twice> in(before_.Rolled(), z[0], z[1]), out(behind_.Rolled(), z[4], z[5]);
-  const auto tension = [&](const FreeSpan<Twice>& of, std::size_t first) -> Twice {
+  const SpanNumbers<Twice> in(before_.Rolled(), z[0], z[1]), out(behind_.Rolled(), z[4], z[5]);
+  const auto tension = [&](const SpanNumbers<Twice>& of, std::size_t first) -> Twice {
     return before_.EA() * (Twice(of.length + z[first + 2]) / z[first + 3] - 1.0);
   };
   const Twice sum = tension(in, 0) + tension(out, 4);

@@ -38,7 +38,7 @@ LawVector TendonSpan::RestGradient(const LawDofs& dofs) const {
 }
 
 TendonSpan::State TendonSpan::At(const Eigen::VectorXd& u, double s) const {
-  State state{PlaceAt(Span(), u, s), RestLength(), {}, 0.0};
+  State state{PlaceAt(Span(), u, s), RestLength(), {}, 0.0, Rolled().Arcs() + Wound(u, s)};
   if (slides_[0].dof >= 0) state.rest += u[slides_[0].dof] - slides_[0].held;
   if (slides_[1].dof >= 0) state.rest -= u[slides_[1].dof] - slides_[1].held;
   // Neither lengths of nothing nor what is left of nothing have derivatives.

@@ -24,13 +24,13 @@ struct PlacedTendon {
 
 std::vector<PlacedTendon> TendonsOf(const Model& model) {
   std::vector<PlacedTendon> placed;
-  for (std::size_t k = 0; k < model.scene.tendons.size(); ++k) {
-    const Tendon& tendon = model.scene.tendons[k];
+  for (std::size_t k = 0; k < model.scaled.tendons.size(); ++k) {
+    const Tendon& tendon = model.scaled.tendons[k];
     std::vector<Eigen::Vector2d> points;
     std::vector<FixedPoint> fixed;
     for (const std::string& name : tendon.nodes) {
       const std::size_t node = model.index.Node(name);
-      points.emplace_back(model.scene.nodes[node].x, model.scene.nodes[node].y);
+      points.emplace_back(model.scaled.nodes[node].x, model.scaled.nodes[node].y);
       fixed.push_back(model.structure.PointOf(static_cast<int>(node)));
     }
     PlacedTendon& of = placed.emplace_back(PlacedTendon{TendonName(tendon, k), &tendon, RouteOf(tendon, points), {}});
@@ -52,7 +52,7 @@ double RollerEnds::Limit::Left(const Eigen::VectorXd& u, double s) const {
 RollerEnds::RollerEnds(const Model& model) : num_dofs_(model.structure.NumDofs()) {
   const std::vector<PlacedTendon> tendons = TendonsOf(model);
   for (const PlacedTendon& of : tendons) {
-    const Windings windings = WindingsOf(*of.tendon, model.scene, model.index, model.structure);
+    const Windings windings = WindingsOf(*of.tendon, model.scaled, model.index, model.structure);
     const std::size_t last = of.tendon->nodes.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
       if (i < last && of.route.spans[i].Delta() != 0.0) {

@@ -24,6 +24,7 @@ SectionForces SectionOf(const Element& element, const Eigen::VectorXd& x) {
   SectionForces section;
   Eigen::Index i = 0;
   for (const LocalDof& local : element.Dofs()) {
+    if (local.node > 1) break;
     const bool is_end = local.node == 1;
     if (local.field == Field::kRotation) {
       (is_end ? section.M2 : section.M1) = is_end ? force[i] : -force[i];

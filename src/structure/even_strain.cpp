@@ -1,54 +1,52 @@
 #include "contact_path/structure/even_strain.h"
 
-#include <cmath>
-#include <type_traits>
 #include <unsupported/Eigen/AutoDiff>
 #include <utility>
+
+#include "structure/span_numbers.h"
 
 namespace contact_path {
 namespace {
 
-constexpr int kMost = 12;  // values
+constexpr int kMost = 15;  // values
 using Along = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 using Once = Eigen::AutoDiffScalar<Eigen::Matrix<Along, kMost, 1>>;
 using Twice = Eigen::AutoDiffScalar<Eigen::Matrix<Once, kMost, 1>>;
 
-template <typename Number>
-Number Constant(double value) {
-  if constexpr (std::is_same_v<Number, double>)
-    return value;
-  else
-    return Number(Constant<typename Number::Scalar>(value));
-}
-
 }  // namespace
 
-EvenStrain::EvenStrain(double stiffness, Piece before, Piece behind, int num_nodes)
+EvenStrain::EvenStrain(double stiffness, Piece before, Piece behind, int num_nodes, int num_bodies)
     : stiffness_(stiffness),
       before_(std::move(before)),
       behind_(std::move(behind)),
-      dofs_(PositionsOfNodes(num_nodes)) {}
+      first_body_(2 * static_cast<std::size_t>(num_nodes)),
+      dofs_(PositionsOfNodes(num_nodes)) {
+  for (int k = 0; k < num_bodies; ++k) dofs_.push_back({num_nodes + k, Field::kRotation, 0});
+}
 
 template <typename Number>
 Number EvenStrain::EnergyOf(const std::vector<Number>& values) const {
-  using std::sqrt;
   const auto ratio = [&](const Piece& piece) -> Number {
     const auto at = [&](std::size_t end, std::size_t axis) -> const Number& {
       return values[2 * static_cast<std::size_t>(piece.nodes[end]) + axis];
     };
     const Number dx = at(1, 0) - at(0, 0), dy = at(1, 1) - at(0, 1);
-    Number rest = Constant<Number>(piece.rest);
+    Number rest = AsNumber<Number>(piece.rest);
     for (const Piece::Slide& slide : piece.slides) {
-      const Number slid = values[2 * static_cast<std::size_t>(slide.node)] - Constant<Number>(slide.start);
+      const Number slid = values[2 * static_cast<std::size_t>(slide.node)] - AsNumber<Number>(slide.start);
       if (slide.sense > 0.0)
         rest += slid;
       else
         rest -= slid;
     }
-    return sqrt(Number(dx * dx + dy * dy)) / rest * Constant<Number>(piece.per_distance);
+    Number length = SpanNumbers<Number>(piece.rolled, dx, dy).length;
+    if (piece.rolled.Arcs() != 0.0) length += AsNumber<Number>(piece.rolled.Arcs());
+    for (const Piece::Drum& drum : piece.drums)
+      length += values[first_body_ + static_cast<std::size_t>(drum.body)] * AsNumber<Number>(drum.by_turn);
+    return length / rest;
   };
   const Number uneven = ratio(before_) - ratio(behind_);
-  return Constant<Number>(0.5 * stiffness_) * Number(uneven * uneven);
+  return AsNumber<Number>(0.5 * stiffness_) * Number(uneven * uneven);
 }
 
 void EvenStrain::Derive(const Eigen::VectorXd& x, const Eigen::VectorXd& v, Eigen::Ref<Eigen::MatrixXd> hessian,

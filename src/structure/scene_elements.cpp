@@ -234,7 +234,7 @@ void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<do
 }
 
 PlacedElement EvenStrainAt(const ContactCandidate& eye, const Scene& scene, const SceneIndex& index) {
-  std::vector<int> nodes;
+  std::vector<int> nodes, bodies;
   const auto local = [&](const std::string& name) {
     const auto node = static_cast<int>(index.Node(name));
     const auto found = std::find(nodes.begin(), nodes.end(), node);
@@ -249,11 +249,16 @@ PlacedElement EvenStrainAt(const ContactCandidate& eye, const Scene& scene, cons
     EA = tendon.EA;
     EvenStrain::Piece of;
     of.rest = tendon.rest_length;
-    if (!tendon.radii.empty()) {
-      const Node &first = scene.nodes[index.Node(tendon.nodes[0])], &second = scene.nodes[index.Node(tendon.nodes[1])];
-      const std::vector<Eigen::Vector2d> points = {{first.x, first.y}, {second.x, second.y}};
-      of.per_distance = RouteOf(tendon, points).length / (points[1] - points[0]).norm();
-    }
+    const Node &first = scene.nodes[index.Node(tendon.nodes[0])], &second = scene.nodes[index.Node(tendon.nodes[1])];
+    const TendonRoute route = RouteOf(tendon, {{first.x, first.y}, {second.x, second.y}});
+    of.rolled = route.spans[0];
+    for (std::size_t k = 0; k < 2; ++k)
+      if (const std::string& name = BodyOfDrum(tendon, k, scene, index); !name.empty()) {
+        const auto body = static_cast<int>(index.Node(name));
+        const auto known = std::find(bodies.begin(), bodies.end(), body);
+        of.drums.push_back({static_cast<int>(known - bodies.begin()), route.by_turn[k]});
+        if (known == bodies.end()) bodies.push_back(body);
+      }
     for (std::size_t k = 0; k < 2; ++k) {
       of.nodes[k] = local(tendon.nodes[k]);
       if (const std::string& slide = tendon.slides[k]; !slide.empty())
@@ -263,7 +268,10 @@ PlacedElement EvenStrainAt(const ContactCandidate& eye, const Scene& scene, cons
   };
   const EvenStrain::Piece before = piece(1), behind = piece(0);
   const double stiffness = tolerances::kRootOfRounding * EA * std::min(before.rest, behind.rest);
-  return {std::make_unique<EvenStrain>(stiffness, before, behind, static_cast<int>(nodes.size())), nodes};
+  auto element = std::make_unique<EvenStrain>(stiffness, before, behind, static_cast<int>(nodes.size()),
+                                              static_cast<int>(bodies.size()));
+  nodes.insert(nodes.end(), bodies.begin(), bodies.end());
+  return {std::move(element), nodes};
 }
 
 }  // namespace

@@ -39,8 +39,17 @@ TEST(MovingPlace, GivesLawsTheirDerivatives) {
   const FixedPoint to{other, {0.1, 0.9}};
   const MovingPlace first = MovingPlace::Between(node, point), second = MovingPlace::Between(point, to),
                     third = MovingPlace::Between(to, node);
-  for (const std::vector<MovingPlace>& spans : {std::vector{first}, {second}, {first, second, third}})
-    laws.push_back(std::make_unique<SlackBar>(spans, 1.3, 0.4, StrainMeasure::kBiot, BarSense::kTension));
+  // Round rollers, and wound on drums.
+  const auto rolled = [](double rho_1, double rho_2) { return RolledSpan(rho_1, rho_2, {0.5, 1.1}, 0.2); };
+  const Windings windings = {{{body.angle, -0.2}, {{-1, 0.1, 0.7}, 0.3}}};
+  for (const std::vector<BarSpan>& spans :
+       {std::vector<BarSpan>{{first}},
+        {{second}},
+        {{first}, {second}, {third}},
+        {{first, rolled(0.2, -0.1)}},
+        {{first, rolled(0.0, -0.1)}, {second, rolled(-0.1, 0.15)}, {third, rolled(0.15, 0.0)}}})
+    for (const Windings& wound : {Windings(), windings})
+      laws.push_back(std::make_unique<SlackBar>(spans, wound, 1.3, 0.4, StrainMeasure::kBiot, BarSense::kTension));
   for (const MovingPlace& apart : {first, second, third})
     laws.push_back(std::make_unique<PinJoint>(apart, Vector2d(0.2, -0.1), 0.0));
   Random random(3);

@@ -33,7 +33,7 @@ const FixedPoint kNode = PointOfNode(0, 1), kLeftEnd = PointOfNode(-1, -1, {-1.0
 constexpr Mode kTaut = {static_cast<int>(BarState::kTaut), 0}, kSlack = {static_cast<int>(BarState::kSlack), 0};
 
 SlackBar String(const FixedPoint& a, const FixedPoint& b, double rest_length) {
-  return {{MovingPlace::Between(a, b)}, kEA, rest_length, StrainMeasure::kBiot, BarSense::kTension};
+  return {{{MovingPlace::Between(a, b)}}, {}, kEA, rest_length, StrainMeasure::kBiot, BarSense::kTension};
 }
 
 // A node at the origin on springs, between strings to (-1, 0), of the length 1, and to (1, 0), of the length 0.9: both
@@ -106,7 +106,7 @@ TEST(SlackBar, IsTheElementWhereItIsTaut) {
   Random random(3);
   for (const StrainMeasure strain : {StrainMeasure::kBiot, StrainMeasure::kGreenLagrange, StrainMeasure::kLogarithmic})
     for (const BarSense sense : {BarSense::kTension, BarSense::kCompression}) {
-      const SlackBar law({MovingPlace::Between(PointOfNode(0, 1), PointOfNode(2, 3))}, 1.7, 0.8, strain, sense);
+      const SlackBar law({{MovingPlace::Between(PointOfNode(0, 1), PointOfNode(2, 3))}}, {}, 1.7, 0.8, strain, sense);
       const BarElement element(1.7, 0.8, strain);
       const double length = sense == BarSense::kTension ? 1.1 : 0.6, angle = random.Number(0.0, 6.0);
       VectorXd u(4), force(4), v = random.Vector(4, -1.0, 1.0);

@@ -201,6 +201,8 @@ TraceRequest Mirror(TraceRequest request) {
   }
   for (Beam& beam : request.scene.beams) beam.angle = -beam.angle;
   for (Pin& pin : request.scene.pins) pin.angle = -pin.angle;
+  for (Tendon& tendon : request.scene.tendons)
+    for (double& turns : tendon.turns) turns = -turns;
   for (Solid& solid : request.scene.solids) TurnElementsRound(&solid);
   for (BoundarySurface& surface : request.scene.surfaces) std::reverse(surface.nodes.begin(), surface.nodes.end());
   for (StopCriterion& criterion : request.options.stop) {
@@ -247,7 +249,12 @@ TraceRequest Reverse(TraceRequest request) {
   for (BoundarySurface& surface : scene.surfaces)
     for (std::string& node : surface.nodes) node = FromOtherEnd(node, scene.beams);
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
-  for (Tendon& tendon : scene.tendons) std::reverse(tendon.nodes.begin(), tendon.nodes.end());
+  for (Tendon& tendon : scene.tendons) {
+    std::reverse(tendon.nodes.begin(), tendon.nodes.end());
+    std::reverse(tendon.radii.begin(), tendon.radii.end());
+    std::reverse(tendon.turns.begin(), tendon.turns.end());
+    for (double& turns : tendon.turns) turns = -turns;
+  }
   for (Pin& pin : scene.pins) {
     std::reverse(pin.nodes.begin(), pin.nodes.end());
     pin.angle = -pin.angle;

@@ -57,8 +57,8 @@ class TendonEye : public ContactPair {
   XiRange RangeOf(int patch) const override;
 
  private:
-  // A function of (dx1, dy1, w1, a1, dx2, dy2, w2, a2) of the spans: from node to node, what is wound with the arcs at
-  // the start, the length at rest.
+  // A function of (dx1, dy1, w1, a1, dx2, dy2, w2, a2) of the spans: from node to node, what is wound by drums and the
+  // arcs at the start, the length at rest.
   static constexpr int kLocals = 8;
   using Gradient = Eigen::Matrix<double, kLocals, 1>;
   using Hessian = Eigen::Matrix<double, kLocals, kLocals>;

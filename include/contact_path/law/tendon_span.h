@@ -30,7 +30,7 @@ class TendonSpan : public SlackBar {
     double rest;              // a
     Eigen::Vector2d tangent;  // what is free of it, from roller to roller
     double length;            // l, with the arcs and what is wound
-    double Wound() const { return length - tangent.norm(); }
+    double wound;             // of l: by drums, and the arcs at the start
   };
   State At(const Eigen::VectorXd& u, double s) const;
   using SlackBar::Rolled;

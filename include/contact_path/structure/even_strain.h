@@ -4,21 +4,23 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <vector>
 
+#include "contact_path/geometry/rolled_span.h"
 #include "contact_path/structure/element.h"
 
 namespace contact_path {
 
-// W = k (l1 / a1 - l2 / a2)^2 / 2 of the pieces before and behind an eye, with their lengths l from node to node and
-// those at rest a, so soft that it is felt nowhere but where the tendon is slack: there both pieces have one strain,
-// and it exerts no force. Its values are x, y of the node before, of the eye, of the node behind, and of the nodes
-// whose x tells what has slid: a1 = a1_0 + in - slid, a2 = a2_0 + slid - out, of those that are there.
+// W = k (l1 / a1 - l2 / a2)^2 / 2 of the pieces before and behind an eye, with their lengths l from node to node, round
+// rollers and on drums, and those at rest a, so soft that it is felt nowhere but where the tendon is slack: there both
+// pieces have one strain, and it exerts no force. Its values are x, y of the node before, of the eye, of the node
+// behind, and of the nodes whose x tells what has slid, then rotations of bodies: a1 = a1_0 + in - slid, a2 = a2_0 +
+// slid - out, of those that are there.
 class EvenStrain : public Element {
  public:
   struct Piece {
-    double rest = 0.0;          // at the start [length]
-    double per_distance = 1.0;  // its length over the distance of its nodes at the start
+    double rest = 0.0;  // at the start [length]
     // By node of the element: what its x less `start` adds to the length at rest, per length.
     struct Slide {
       int node;
@@ -26,9 +28,16 @@ class EvenStrain : public Element {
     };
     std::vector<Slide> slides;
     std::array<int, 2> nodes{};  // of the element
+    RolledSpan rolled = {};
+    // What the turn of a body adds to the length. body: among those of the element.
+    struct Drum {
+      int body;
+      double by_turn;  // [length/rad]
+    };
+    std::vector<Drum> drums = {};
   };
-  // stiffness: k [force length].
-  EvenStrain(double stiffness, Piece before, Piece behind, int num_nodes);
+  // stiffness: k [force length]. Of num_nodes, and behind them num_bodies whose rotations count.
+  EvenStrain(double stiffness, Piece before, Piece behind, int num_nodes, int num_bodies = 0);
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
@@ -46,6 +55,7 @@ class EvenStrain : public Element {
 
   double stiffness_;
   Piece before_, behind_;
+  std::size_t first_body_;  // among the values
   std::vector<LocalDof> dofs_;
 };
 

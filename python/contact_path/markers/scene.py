@@ -247,11 +247,11 @@ class SceneMarkers:
         structure = self.structure
         outer = ~structure.beams.inner
         at_rest = structure.beams.curves(structure.initial, np.zeros(len(outer)))
-        picture.lines('initial', 0, THIN, INITIAL, Layer.INITIAL, joined([structure.initial[structure.bars], chain(at_rest)]))
+        picture.lines('initial', 0, THIN, INITIAL, Layer.INITIAL, joined([structure.bar_lines(structure.initial), chain(at_rest)]))
         picture.dots('initial', 1, SPHERES, 0.6, INITIAL, Layer.INITIAL, structure.initial[outer])
-        picture.lines('structure', 0, WIDE, BARS, Layer.BARS, joined([shape.places[structure.bars[~shape.slack]], chain(shape.beams)]))
+        picture.lines('structure', 0, WIDE, BARS, Layer.BARS, joined([shape.bars[~shape.slack], chain(shape.beams)]))
         picture.dots('structure', 1, SPHERES, 1.0, BARS, Layer.NODES, shape.places[outer])
-        picture.lines('structure', 2, THIN, BARS, Layer.BARS, shape.places[structure.bars[shape.slack]])
+        picture.lines('structure', 2, THIN, BARS, Layer.BARS, joined([shape.bars[shape.slack], chain(shape.rims)]))
         rays = [(shape.places[node], hub) for (nodes, _), hub in zip(structure.superelements, shape.hubs) for node in nodes]
         picture.lines('superelements', 0, WIDE, SPRING, Layer.SPRINGS, rays)
         picture.dots('superelements', 1, CUBES, 1.0, SPRING, Layer.SPRINGS, shape.hubs)

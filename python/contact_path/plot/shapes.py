@@ -74,11 +74,12 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
         draw_lines(axes, [points], color=SURFACE, linewidth=0.9, zorder=3.2)
     width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + len(structure.beams.nodes) + 1.0))
     initial_beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
-    for lines in structure.initial[structure.bars], initial_beams:
+    for lines in structure.bar_lines(structure.initial), initial_beams:
         draw_lines(axes, lines, color=INITIAL, linewidth=0.7 * width, zorder=1)
-    for lines in shape.places[structure.bars[~shape.slack]], shape.beams:
+    draw_lines(axes, shape.rims, color=BARS, linewidth=0.6 * width, zorder=2.9)
+    for lines in shape.bars[~shape.slack], shape.beams:
         draw_lines(axes, lines, color=BARS, linewidth=width, zorder=3)
-    draw_lines(axes, shape.places[structure.bars[shape.slack]], color=BARS, linewidth=0.6 * width, linestyle=':', zorder=3)
+    draw_lines(axes, shape.bars[shape.slack], color=BARS, linewidth=0.6 * width, linestyle=':', zorder=3)
     for (nodes, _), hub in zip(structure.superelements, shape.hubs):
         draw_lines(axes, [(hub, shape.places[node]) for node in nodes], color=BARS, linewidth=1.2, linestyle='--',
                    zorder=3)

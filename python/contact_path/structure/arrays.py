@@ -61,11 +61,18 @@ class Structure:
         pieces = [(name, pair) for name, tendon in zip(names.get('bars', ())[len(self.one_sided):], tendons)
                   for pair in zip(tendon['nodes'], tendon['nodes'][1:])]
         self.one_sided.update({len(bars) + i: name for i, (name, _) in enumerate(pieces)})
+        # Signed radii of the rollers at the ends of each bar, and node -> radius.
+        signed = [np.copysign(tendon['radii'], tendon['turns']) if tendon.get('radii') else np.zeros(len(tendon['nodes'])) for tendon in tendons]
+        rims = [pair for radii in signed for pair in zip(radii, radii[1:])]
+        self.rollers = {index[node]: radius for tendon in tendons for node, radius in zip(tendon['nodes'], tendon.get('radii') or ()) if radius}
+        before = len(bars)
         bars += [pair for _, pair in pieces]
         self.bar_names += names['sections'][len(names['sections']) - len(pieces):]
         bars += [nodes for nodes in further if len(nodes) == 2]
         self.bar_names += [''] * (len(bars) - len(self.bar_names))
         self.bars = np.array([[index[name] for name in nodes] for nodes in bars], dtype=int).reshape(-1, 2)
+        self.bar_rims = np.zeros((len(bars), 2))
+        self.bar_rims[before:before + len(rims)] = np.array(rims).reshape(-1, 2)
         self.beams = Beams(scene['beams'], names['sections'][len(scene['bars']):len(names['sections']) - len(pieces)], index, self.initial)
         self.beams.inner[list(self.eyes)] = True  # not drawn by themselves either
         elements = iter(names['elements'])
@@ -132,6 +139,25 @@ class Structure:
         places = np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
         places[list(self.eyes)] = places[list(self.eyes.values())]
         return places
+
+    def bar_lines(self, places: np.ndarray) -> np.ndarray:
+        """(m, 2, 2) from end to end of the bars; of a tendon from where it leaves a roller to where it comes to the next one."""
+        lines = places[self.bars]
+        rolled = self.bar_rims.any(axis=1)
+        if rolled.any():
+            d, rims = lines[rolled, 1] - lines[rolled, 0], self.bar_rims[rolled]
+            apart, square = rims[:, 1] - rims[:, 0], (d ** 2).sum(axis=1)
+            free = np.sqrt(np.maximum(square - apart ** 2, 0.0))
+            left = np.column_stack((-d[:, 1], d[:, 0]))
+            along = (free[:, None] * d - apart[:, None] * left) / square[:, None]
+            lines[rolled] -= rims[:, :, None] * np.column_stack((-along[:, 1], along[:, 0]))[:, None]
+        return lines
+
+    def rims(self, places: np.ndarray) -> np.ndarray:
+        """(r, k, 2): rollers as lines."""
+        angles = np.linspace(0.0, 2.0 * np.pi, 65)
+        circle = np.column_stack((np.cos(angles), np.sin(angles)))
+        return np.array([places[node] + radius * circle for node, radius in self.rollers.items()]).reshape(-1, len(circle), 2)
 
     def rotations(self, increment: Increment) -> np.ndarray:
         """(n,) of the nodes since the start; nan where no beam turns them."""

@@ -63,6 +63,7 @@ class Shape:
         self.slack = np.zeros(len(structure.bars), dtype=bool)  # of the bars; they bear nothing
         for i, name in structure.one_sided.items():
             self.slack[i] = increment.get('state_' + name) == 'slack'
+        self.bars, self.rims = structure.bar_lines(self.places), structure.rims(self.places)
         self.gaps = structure.of_contacts(increment, 'gap_')
         rn = structure.of_contacts(increment, 'rn_')[:, None]
         placements = {name: structure.placement(name, increment) for name in structure.obstacles}
@@ -104,7 +105,7 @@ class View:
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
         places = np.vstack([part for shape in shapes
-                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2),
+                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2), shape.rims.reshape(-1, 2),
                                          *shape.surfaces)])
         low, high = places.min(axis=0), places.max(axis=0)
         self.size = max(high - low)
