@@ -12,6 +12,7 @@ namespace contact_path {
 
 void ExpandTendon(std::size_t place, const std::unordered_map<std::string, std::size_t>& nodes, Scene* scene) {
   const Tendon tendon = scene->tendons[place];
+  if (FindRollerFault(tendon)) return;
   std::vector<Eigen::Vector2d> at;
   for (const std::string& node : tendon.nodes) {
     const auto known = nodes.find(node);

@@ -10,8 +10,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMostTurns = 100.0;  // of a tendon round a roller
-
 // "bar or superelement".
 std::string ElementKinds() {
   std::vector<std::string_view> kinds;
@@ -168,19 +166,11 @@ class StructureRules {
   }
 
   void CheckRollers(const KeyPath& path, const Tendon& tendon) {
-    const std::size_t count = tendon.nodes.size();
-    for (const auto& [name, list] : {std::pair("radii", &tendon.radii), std::pair("turns", &tendon.turns)})
-      if (list->size() != tendon.radii.size() || (!list->empty() && list->size() != count))
-        return checker_.Add(path.Key(name), std::to_string(list->size()) + " numbers",
-                            "must have one for each node: " + std::to_string(tendon.radii.empty() ? 0 : count));
-    for (std::size_t i = 0; i < tendon.radii.size(); ++i) {
-      const double turns = tendon.turns[i];
-      if (turns != std::round(turns) || std::abs(turns) > kMostTurns)
-        return checker_.Add(path.Key("turns")[i], NumberText(turns),
-                            "must be a whole number up to " + NumberText(kMostTurns));
-      if ((turns == 0.0) != (tendon.radii[i] == 0.0))
-        return checker_.Add(path.Key("turns")[i], NumberText(turns), "must be 0 where the radius is, and only there");
+    if (const std::optional<RollerFault> fault = FindRollerFault(tendon)) {
+      const KeyPath list = path.Key(fault->field);
+      return checker_.Add(fault->entry ? list[*fault->entry] : list, fault->value, fault->rule);
     }
+    const std::size_t count = tendon.nodes.size();
     for (std::size_t i = 0; i < tendon.radii.size(); ++i) {
       const Node *const node = checker_.KnownNode(tendon.nodes[i]), *const next =
                                                                         i + 1 < count

@@ -1,13 +1,16 @@
 #include "contact_path/scene/tendon_route.h"
 
 #include <cmath>
+#include <utility>
 
 #include "contact_path/geometry/plane.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 namespace {
 
 constexpr double kWholeTurn = 6.283185307179586;  // [rad]
+constexpr double kMostTurns = 100.0;
 
 // From 0 to a whole turn.
 double Positive(double angle) { return angle < 0.0 ? angle + kWholeTurn : angle; }
@@ -17,6 +20,22 @@ double Positive(double angle) { return angle < 0.0 ? angle + kWholeTurn : angle;
 double SignedRadius(const Tendon& tendon, std::size_t node) {
   if (node >= tendon.radii.size() || node >= tendon.turns.size()) return 0.0;
   return std::copysign(tendon.radii[node], tendon.turns[node]);
+}
+
+std::optional<RollerFault> FindRollerFault(const Tendon& tendon) {
+  const std::size_t count = tendon.radii.empty() ? 0 : tendon.nodes.size();
+  for (const auto& [name, list] : {std::pair("radii", &tendon.radii), std::pair("turns", &tendon.turns)})
+    if (list->size() != count)
+      return RollerFault{name, std::nullopt, std::to_string(list->size()) + " numbers",
+                         "must have one for each node: " + std::to_string(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double turns = tendon.turns[i];
+    if (turns != std::round(turns) || std::abs(turns) > kMostTurns)
+      return RollerFault{"turns", i, NumberText(turns), "must be a whole number up to " + NumberText(kMostTurns)};
+    if ((turns == 0.0) != (tendon.radii[i] == 0.0))
+      return RollerFault{"turns", i, NumberText(turns), "must be 0 where the radius is, and only there"};
+  }
+  return std::nullopt;
 }
 
 bool SpanIsSound(const Tendon& tendon, std::size_t span, const Eigen::Vector2d& d) {

@@ -202,7 +202,7 @@ TEST(Rollers, ADrivenOneDragsTheTendonAlong) {
     EXPECT_NEAR(increment.sections[3].N / std::exp(friction * wrapped), increment.sections[2].N, kSoft);
     // The moment that turns it.
     double moment = 0.0;
-    for (const SupportRecord& support : increment.supports) moment += support.rm;
+    for (const Resultant& support : increment.supports) moment += support.rm;
     EXPECT_NEAR(moment, r * (increment.sections[3].N - increment.sections[2].N), kSoft);
   }
   EXPECT_TRUE(slips);

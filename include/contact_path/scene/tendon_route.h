@@ -4,7 +4,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contact_path/geometry/rolled_span.h"
@@ -15,6 +18,14 @@ namespace contact_path {
 
 // rho of RolledSpan at a node of the tendon [length]; 0: it has no roller there.
 double SignedRadius(const Tendon& tendon, std::size_t node);
+
+// The first rule that the radii and turns break by themselves; nothing: none.
+struct RollerFault {
+  std::string_view field;
+  std::optional<std::size_t> entry;
+  std::string value, rule;
+};
+std::optional<RollerFault> FindRollerFault(const Tendon& tendon);
 
 // Whether a string can go from node `span` to the next one, d apart, where their rollers are apart as well.
 bool SpanIsSound(const Tendon& tendon, std::size_t span, const Eigen::Vector2d& d);
