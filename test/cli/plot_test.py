@@ -486,6 +486,38 @@ class Shapes(QuickPlotTest):
         other = scene_file('rigid_stop')
         self.assert_main_refuses([table, '--scene', other, '--shapes'], 'program.csv', 'stages differ')
 
+    def test_friction_that_changes_and_nodes_at_one_place(self):
+        scene = scene_file('step_ladder')
+        table = self.trace('step_ladder', 'a.csv')
+        path = read(table)
+        structure = Structure(Scene.read(scene))
+        for row in range(len(path)):
+            shape = plot_shapes.Shape(structure, path.increment(row))
+            np.testing.assert_allclose(shape.friction, 0.8 - path['load_factor'][row])
+        # The last one slides: its reaction is on its cone.
+        np.testing.assert_allclose(-shape.tangential_parts[1], shape.cone[1])
+        self.assertIn('friction cone, mu = 0.289 to 0.8', self.texts(table, '--scene', scene, '--shapes'))
+        figure, axes = plt.subplots()
+        plot_shapes.draw_names(axes, shape, plot_shapes.View([shape]), inch=0.2)
+        self.assertCountEqual([text.get_text() for text in axes.texts], ['left_foot', 'left_top, right_top', 'right_foot', 'left', 'right'])
+        plt.close(figure)
+
+    def test_friction_that_a_stage_takes_back(self):
+        scene = Scene()
+        for name in 'p', 'q':
+            scene.node(name)
+            scene.superelement(nodes=[name], stiffness=np.eye(2).ravel())
+            scene.obstacle('floor_' + name, ny=1.0, friction=0.2)
+        scene.contact(node='p', obstacle='floor_p', friction=0.5)
+        scene.contact(node='q', obstacle='floor_q')
+        stage = scene.stage(target=2.0)
+        stage.load(node='p', fy=-1.0)
+        stage.friction_change('floor_p', rate=-0.1)
+        scene.stage(unload=True, target=0.5)
+        structure = Structure(scene)
+        np.testing.assert_allclose(structure.friction_in({'stage': 1, 'load_factor': 2.0}), (0.3, 0.2))
+        np.testing.assert_allclose(structure.friction_in({'stage': 2, 'load_factor': 0.25}), (0.35, 0.2))
+
     def test_drawn_forces_are_in_equilibrium(self):
         """The arch has no supports: loads and reactions are all forces on it, so their arrows add up to nothing."""
         path = read(self.trace('arch19', 'arch.csv'))

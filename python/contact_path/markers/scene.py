@@ -290,8 +290,8 @@ class SceneMarkers:
         layers = [Layer.CANDIDATES if state == 'open' else Layer.TOUCHING for state in shape.states]
         picture.dots('contacts', 0, SPHERES, CONTACT_DIAMETER, OPEN, layers, shape.touching, [rgba(colours[state]) for state in shape.states])
         edge = min(CONE_EDGE * self.detail, MOST_CONE * self.size)
-        rough = (self.structure.friction > 0.0) & ~np.isin(shape.states, ('open', 'closed'))
-        apexes, sides = shape.touching[rough], (self.structure.friction[:, None] * shape.tangents)[rough]
+        rough = (shape.friction > 0.0) & ~np.isin(shape.states, ('open', 'closed'))
+        apexes, sides = shape.touching[rough], (shape.friction[:, None] * shape.tangents)[rough]
         rims = [apexes + edge * unit(shape.normals[rough] + sign * sides) for sign in (-1.0, 1.0)]
         picture.triangles('cones', 0, CONE, Layer.CONES, np.stack((apexes, *rims), axis=1))
 

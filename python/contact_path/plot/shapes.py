@@ -25,6 +25,7 @@ MOST_WANTED = 24  # shapes in a figure
 KINDS_AT = {'events': EVENTS, 'limits': LIMITS, 'all': tuple(MARKS)}
 
 ARROW_WIDTH = 0.022  # of the shaft, in inches
+SAME_PLACE = 1e-6  # of the size: nodes as near have one label
 FEW_CONTACTS = 6  # as few show the parts of their reactions
 COLOUR_MAP = LinearSegmentedColormap.from_list('solids', SOLID_COLOURS)
 
@@ -171,9 +172,13 @@ def draw_names(axes: Axes, shape: Shape, view: View, inch: float) -> None:
     for _, force in shape.forces()[1:]:
         for node in np.flatnonzero(force.any(axis=1)):
             taken[node].append(force[node] / np.hypot(*force[node]))
-    for name, place, directions, inner in zip(structure.names, shape.places, taken, structure.beams.inner):
-        if inner:
+    for node, (place, directions) in enumerate(zip(shape.places, taken)):
+        # What a pin joins has one label.
+        same = [i for i in np.flatnonzero(np.hypot(*(shape.places - place).T) < SAME_PLACE * view.size) if not structure.beams.inner[i]]
+        if structure.beams.inner[node] or same[0] != node:
             continue
+        directions = [direction for i in same for direction in taken[i]]
+        name = ', '.join(structure.names[i] for i in same)
         size = np.array([0.06 * len(name) + 0.03, 0.12]) * inch
 
         def is_in_view(direction: np.ndarray) -> bool:
@@ -268,7 +273,7 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
                       markeredgewidth=0.7, label=state) for state, colour in STATES.items() if state in states]
     if any(np.any(shape.reactions) for shape in shapes):
         handles.append(arrow(REACTION, 'reaction' + (', thin: its parts' if any(map(shows_parts, shapes)) else '')))
-    coefficients = sorted({mu for structure in structures for mu in structure.friction if mu > 0.0})
+    coefficients = sorted({mu for shape in shapes for mu in shape.friction if mu > 0.0})
     if coefficients:
         mu = ' to '.join('%.3g' % value for value in sorted({coefficients[0], coefficients[-1]}))
         handles.append(Patch(facecolor=REACTION, alpha=0.15, label='friction cone, mu = ' + mu))

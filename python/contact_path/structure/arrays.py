@@ -27,10 +27,11 @@ class Stage(NamedTuple):
     target: float
     loads: np.ndarray  # (n, 3) forces and moments on the nodes
     motions: Dict[str, Mapping[str, Any]]  # obstacle -> its motion with all fields
+    frictions: Dict[str, float]  # obstacle -> change of the friction of its contacts
 
 
 class Structure:
-    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, friction (k,) of the k contacts.
+    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, friction (k,) of the k contacts at the start.
 
     bar_names (m,), contacts (k,): as quantities have them. Elements of further kinds are drawn as bars, without a name, or as
     superelements where they join more or fewer than two nodes, and so are bodies. stages: without a program there is one, of the scene's own.
@@ -89,9 +90,10 @@ class Structure:
                                for name in bodies]
         self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
         own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
-               'obstacle_motions': scene['obstacle_motions']}
+               'obstacle_motions': scene['obstacle_motions'], 'friction_changes': scene.get('friction_changes', [])}
         self.stages = [Stage(stage['name'], stage['target'], self.loads_of(stage['loads']),
-                             {motion['obstacle']: motion for motion in stage['obstacle_motions']})
+                             {motion['obstacle']: motion for motion in stage['obstacle_motions']},
+                             {change['obstacle']: change['rate'] for change in stage.get('friction_changes', [])})
                        for stage in request['program'] or [own]]
         self.obstacles = {obstacle['name']: Boundary(obstacle, lambda: outlines(given)) for obstacle in scene['obstacles']}
         # Obstacle -> the body that carries it.
@@ -183,6 +185,14 @@ class Structure:
         current = np.asarray(increments['stage'] if 'stage' in increments else 1)[..., None] - 1
         numbers = np.arange(len(targets))
         return np.where(numbers < current, targets, np.where(numbers == current, factors, 0.0))
+
+    def friction_in(self, increment: Increment) -> np.ndarray:
+        """(k,) of the contacts, with what has become of the friction of their obstacles."""
+        changes: Dict[str, float] = {}
+        for stage, share in zip(self.stages, self.shares(increment)):
+            for obstacle, rate in stage.frictions.items():
+                changes[obstacle] = changes.get(obstacle, 0.0) + share * rate
+        return np.maximum(self.friction + [changes.get(obstacle, 0.0) for obstacle in self.contact_obstacles], 0.0)
 
     def placement(self, obstacle: str, increments: Increment | Increments) -> Placement:
         """Where an obstacle is in an increment, or in each increment of a path."""

@@ -72,7 +72,8 @@ class Shape:
         self.normal_parts = rn * self.normals
         self.tangential_parts = structure.of_contacts(increment, 'rt_')[:, None] * self.tangents
         self.reactions = self.normal_parts + self.tangential_parts
-        self.cone = structure.friction[:, None] * rn * self.tangents  # half of its base
+        self.friction = structure.friction_in(increment)
+        self.cone = self.friction[:, None] * rn * self.tangents  # half of its base
         self.touching = self.places[structure.contact_nodes] - structure.contact_radii[:, None] * self.normals
         self.stage = structure.stages[structure.stage_index(increment)].name
         loads, constant = structure.loads_by_stage(increment)
