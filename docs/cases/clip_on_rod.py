@@ -146,7 +146,7 @@ def plot(file):
     left.set(xlabel='y of the rod', ylabel='push on the rod; dotted: largest of the elastica')
     right.set(aspect='equal', title='friction 0.2')
     left.legend(fontsize='small')
-    right.legend(fontsize='small', loc='center')
+    right.legend(fontsize='small', loc='upper left', bbox_to_anchor=(1.02, 1.0))
     figure.savefig(file, dpi=100)
 
 
