@@ -85,6 +85,46 @@ TEST(BodyScenes, ARatchetClicksAndHolds) {
   EXPECT_GT(path.increments.back().supports.back().rm, 8.0);
 }
 
+// By virtual work: Q cos a = 2 K d sin a + 4 k (a0 - a), d the compression of the rod.
+TEST(BodyScenes, AToggleClampClosesAndOpens) {
+  const TracedPath path = TraceProved(ReadExample("toggle_clamp"));
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const auto push = [](double a) {
+    const double d = std::max(0.0, 2.0 * std::cos(a) - 1.9);
+    return (80.0 * d * std::sin(a) + 0.8 * (0.5 - a)) / std::cos(a);
+  };
+  double largest = 0.0;
+  for (double a = 0.0; a < 0.5; a += 1e-5) largest = std::max(largest, push(a));
+  for (const Increment& increment : path.increments) {
+    const double x = increment.positions[2], a = std::asin(x);  // of the knee
+    if (increment.contacts[1].state != ContactState::kOpen || increment.stage == 2) continue;
+    EXPECT_NEAR((increment.stage == 1 ? 1.0 : -1.0) * increment.load_factor, push(a), 1e-7) << increment.index;
+  }
+  const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+  ASSERT_EQ(limits.size(), 1U);
+  EXPECT_NEAR(limits[0].load_factor, largest, 1e-7);
+  const std::vector<Increment> corners = IncrementsOfKind(path, IncrementKind::kCornerLimit);
+  ASSERT_EQ(corners.size(), 1U);
+  EXPECT_NEAR(corners[0].load_factor, -push(-std::asin(0.1)), 1e-7);
+  EXPECT_NEAR(corners[0].contacts[0].rn, 40.0 * (2.0 * std::sqrt(0.99) - 1.9), 3e-7);
+  EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kJump).size(), 2U);
+}
+
+// Friction 0.8 - s: that which balance needs where the feet are, from where the right one slides.
+TEST(BodyScenes, AStepLadderSlidesApart) {
+  const TracedPath path = TraceProved(ReadExample("step_ladder"));
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_NEAR(LargestLoadOf(path), 0.8 - 0.66 / 0.76 / 3.0, 5e-9);
+  int slides = 0;
+  for (const Increment& increment : path.increments) {
+    if (!Slips(increment.contacts[1].state)) continue;
+    ++slides;
+    const double b = 0.5 * (increment.positions[4] - increment.positions[0]);
+    EXPECT_NEAR(increment.load_factor, 0.8 - 0.66 / 0.76 * b / std::sqrt(2.5 - b * b), 5e-9) << increment.index;
+  }
+  EXPECT_GT(slides, 10);
+}
+
 // Blocks between joints at equal angles on a semicircle of the radius 1, each of which stands on the face of the one
 // before; their weights push aside, too. Limits without sliding are those of a linear program over the forces on the
 // corners.
