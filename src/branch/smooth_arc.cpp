@@ -108,6 +108,14 @@ void SmoothArc::HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change
 }
 
 Correction SmoothArc::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
+  return Correct(guess, row, value, at_hand_ && solver_.ReplaceRow(row));
+}
+
+Correction SmoothArc::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand) {
+  if (at_hand) {
+    Correction correction = Newton(guess, row, value, true);
+    if (correction.converged) return correction;
+  }
   return Newton(guess, row, value, false);
 }
 
@@ -217,11 +225,8 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
 
 Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
   const Eigen::VectorXd row = RowOf(normal);
-  if (at_hand_) {
-    Correction correction = Newton(guess, row, row.dot(guess), true);
-    if (correction.converged) return correction;
-  }
-  return Newton(guess, row, row.dot(guess), false);
+  if (at_hand_) solver_.ReplaceRow(row);  // otherwise that of the last tangent is near
+  return Correct(guess, row, row.dot(guess), at_hand_);
 }
 
 double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint& at) {

@@ -152,6 +152,10 @@ bool BorderedSolver::FactorizeHeld(const Eigen::SparseMatrix<double>& transposed
   return factors_->null_space.allFinite();
 }
 
+bool BorderedSolver::ReplaceRow(const Eigen::VectorXd& row) {
+  return factors_->regular && factors_->is_large && factors_->large.ReplaceRow(row);
+}
+
 Eigen::VectorXd BorderedSolver::Solve(const Eigen::VectorXd& b, double last) const {
   Eigen::VectorXd x;
   Solve(b, last, &x);

@@ -13,6 +13,10 @@
 namespace contact_path {
 namespace {
 
+constexpr std::size_t kMostChanged = 16;  // equations: more solutions than these take as long as a factorisation
+constexpr std::size_t kMostMoved = 32;    // of all matrices that one has served
+constexpr double kLeastCoupling = 1e-4;   // of the pivots of an update: it takes four digits at most
+
 // The first equation that lacks the unknown of its number: equations of equilibrium come first, and have it.
 Eigen::Index FirstWithoutDiagonal(const Eigen::SparseMatrix<double>& transposed) {
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
@@ -46,14 +50,12 @@ Frame FrameOf(const Eigen::SparseMatrix<double>& transposed) {
 }  // namespace
 
 void LargeFactors::Free() {
-  factors_.Free();
+  made_ = nullptr;
   ordering_ = nullptr;
 }
 
 bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                              const Frame* frame) {
-  factors_.Free();
-  along_ = 1.0;
   Frame own;
   if (frame == nullptr || !SetValues(transposed, *frame)) {
     own = FrameOf(transposed);
@@ -62,6 +64,8 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
     SetValues(transposed, own);
   }
   Transfer(*frame, row);
+  if (Update(*frame)) return true;
+  made_ = nullptr;
   const std::shared_ptr<const Ordering> known = frame->orderings->Find(*frame, row_);
   if (known != nullptr) {
     if (AreGoodPlaces(known->places, row_))
@@ -69,22 +73,21 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
     else if (known != ordering_)
       border_ = known->border;
     ordering_ = known;
-    if (FactorizeBordered(false)) return true;
+    if (FactorizeBordered(frame->orderings, false)) return true;
     // The border may be what made N singular, where it is not the row's own.
     if (known->places == LargestPlaces(row_)) return false;
-    factors_.Free();
   }
   ordering_ = frame->orderings->Add(*frame, row_);
   border_ = ordering_->border;
-  return FactorizeBordered(true);
+  return FactorizeBordered(frame->orderings, true);
 }
 
 void LargeFactors::Transfer(const Frame& frame, const Eigen::VectorXd& row) {
   unknowns_ = frame.unknowns;
   equations_ = frame.equations;
   odd_ = frame.odd;
-  row_ = Eigen::VectorXd::Zero(frame.size);
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) row_[unknowns_[i]] = row[static_cast<Eigen::Index>(i)];
+  row_.resize(frame.size);
+  SetRow(row);
 }
 
 // Without the border. False if an entry has no place in the frame.
@@ -117,21 +120,85 @@ bool LargeFactors::SetValues(const Eigen::SparseMatrix<double>& transposed, cons
   return true;
 }
 
-// any_border: also with one that is nearly orthogonal to the null vector of J.
-bool LargeFactors::FactorizeBordered(bool any_border) {
-  const Eigen::Index before = static_cast<Eigen::Index>(ordering_->analysis.Entries().size()) - border_.size();
-  values_.conservativeResize(before + border_.size());
-  values_.tail(border_.size()) = border_;
+bool LargeFactors::FactorizeBordered(Orderings* orderings, bool any_border) {
+  changed_.clear();
+  made_ = nullptr;
+  made_ = std::make_shared<OrderedFactors>();
+  made_->ordering = ordering_;
+  made_->values.resize(values_.size() + border_.size());
+  made_->values << values_, border_;
   along_ = 1.0;
-  if (!factors_.Factorize(ordering_->analysis, values_)) return false;
+  if (!made_->factors.Factorize(ordering_->analysis, made_->values)) return false;
   right_ = Eigen::VectorXd::Unit(row_.size(), row_.size() - 1);
-  direction_.resize(row_.size());
-  factors_.SolveTransposed(right_.data(), direction_.data());
-  along_ = row_.dot(direction_);  // its sign is of use also where N is singular but for rounding
+  made_->along.resize(row_.size());
+  made_->factors.SolveTransposed(right_.data(), made_->along.data());
+  direction_ = made_->along;
+  if (!IsRegular(any_border)) return false;
+  orderings->Note(made_);
+  return true;
+}
+
+bool LargeFactors::Update(const Frame& frame) {
+  std::shared_ptr<OrderedFactors> made = frame.orderings->LastFactors();
+  if (made == nullptr || !made->ordering->Suits(frame)) return false;
+  changed_.clear();
+  for (std::size_t k = 0; k + 1 < frame.starts.size(); ++k) {
+    const int begin = frame.starts[k], count = frame.starts[k + 1] - begin;
+    if (values_.segment(begin, count) == made->values.segment(begin, count)) continue;
+    if (changed_.size() == kMostChanged) return false;
+    changed_.push_back(static_cast<int>(k));
+  }
+  made_ = std::move(made);
+  ordering_ = made_->ordering;
+  border_ = made_->values.tail(static_cast<Eigen::Index>(ordering_->places.size()));
+  direction_ = made_->along;
+  if (changed_.empty()) return IsRegular(false);
+  std::map<int, Eigen::VectorXd>& moved = made_->moved;
+  for (const int k : changed_) {
+    if (moved.count(k) > 0) continue;
+    if (moved.size() == kMostMoved) return false;
+    right_ = Eigen::VectorXd::Unit(row_.size(), k);
+    made_->factors.SolveTransposed(right_.data(), moved.emplace(k, row_.size()).first->second.data());
+  }
+  const auto count = static_cast<Eigen::Index>(changed_.size());
+  Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(count, count);
+  for (Eigen::Index j = 0; j < count; ++j) coupling.col(j) += Differences(moved.at(changed_[static_cast<std::size_t>(j)]));
+  if (!coupling.allFinite()) return false;
+  coupling_.compute(coupling);
+  if (!(coupling_.rcond() > kLeastCoupling)) return false;
+  TakeDifferences(&direction_);
+  return IsRegular(false);
+}
+
+bool LargeFactors::ReplaceRow(const Eigen::VectorXd& row) {
+  SetRow(row);
+  return IsRegular(true);
+}
+
+void LargeFactors::SetRow(const Eigen::VectorXd& row) {
+  row_.setZero();
+  for (std::size_t i = 0; i < unknowns_.size(); ++i) row_[unknowns_[i]] = row[static_cast<Eigen::Index>(i)];
+}
+
+bool LargeFactors::IsRegular(bool any_border) {
   const double length = direction_.norm();
+  along_ = row_.dot(direction_);  // its sign is of use also where N is singular but for rounding
   if (!(PivotRatio() > tolerances::kSingularPivot)) return false;
   if (!any_border && !(border_.norm() * length < 1.0 / tolerances::kNearlyParallel)) return false;
   return std::abs(along_) > tolerances::kSingularPivot * row_.norm() * length;
+}
+
+Eigen::VectorXd LargeFactors::Differences(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd differences = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(changed_.size()));
+  ForEachDifference([&](Eigen::Index j, int unknown, double value) { differences[j] += value * x[unknown]; });
+  return differences;
+}
+
+void LargeFactors::TakeDifferences(Eigen::VectorXd* x) const {
+  if (changed_.empty()) return;
+  const Eigen::VectorXd shares = coupling_.solve(Differences(*x));
+  for (std::size_t j = 0; j < changed_.size(); ++j)
+    *x -= shares[static_cast<Eigen::Index>(j)] * made_->moved.at(changed_[j]);
 }
 
 void LargeFactors::Solve(double* x, Eigen::Index columns) {
@@ -139,40 +206,52 @@ void LargeFactors::Solve(double* x, Eigen::Index columns) {
   solution_.resize(row_.size());
   for (Eigen::Index k = 0; k < columns; ++k) {
     double* const column = x + k * static_cast<Eigen::Index>(unknowns_.size());
-    right_.setZero();
+    right_.setZero(row_.size());
     for (std::size_t e = 0; e < equations; ++e) right_[equations_[e]] = column[e];
-    factors_.SolveTransposed(right_.data(), solution_.data());
+    if (right_.isZero(0.0)) {
+      solution_.setZero();
+    } else {
+      made_->factors.SolveTransposed(right_.data(), solution_.data());
+      TakeDifferences(&solution_);
+    }
     solution_ += (column[equations] - row_.dot(solution_)) / along_ * direction_;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) column[i] = solution_[unknowns_[i]];
   }
 }
 
 void LargeFactors::SolveTransposed(double* y) {
-  const Eigen::Index last = row_.size() - 1;
-  right_.setZero();
+  right_.setZero(row_.size());
   for (std::size_t i = 0; i < unknowns_.size(); ++i) right_[unknowns_[i]] = y[i];
-  Eigen::VectorXd z(row_.size()), q(row_.size());
-  factors_.Solve(right_.data(), z.data());
-  right_ = row_;
+  const double last = direction_.dot(right_) / along_;
+  right_ -= last * row_;
   for (std::size_t k = 0; k < ordering_->places.size(); ++k)
-    right_[ordering_->places[k]] -= border_[static_cast<Eigen::Index>(k)];
-  factors_.Solve(right_.data(), q.data());
-  z -= z[last] / along_ * q;
-  for (std::size_t e = 0; e < equations_.size(); ++e) y[e] = z[equations_[e]];
-  y[equations_.size()] = z[last];
+    right_[ordering_->places[k]] += last * border_[static_cast<Eigen::Index>(k)];
+  if (!changed_.empty()) {
+    Eigen::VectorXd along(static_cast<Eigen::Index>(changed_.size()));
+    for (std::size_t j = 0; j < changed_.size(); ++j)
+      along[static_cast<Eigen::Index>(j)] = made_->moved.at(changed_[j]).dot(right_);
+    const Eigen::VectorXd shares = coupling_.transpose().solve(along);
+    ForEachDifference([&](Eigen::Index j, int unknown, double value) { right_[unknown] -= shares[j] * value; });
+  }
+  solution_.resize(row_.size());
+  made_->factors.Solve(right_.data(), solution_.data());
+  for (std::size_t e = 0; e < equations_.size(); ++e) y[e] = solution_[equations_[e]];
+  y[equations_.size()] = last;
 }
 
 std::optional<Eigen::Index> LargeFactors::NegativeEigenvalues(Eigen::Index symmetric) const {
-  if (unknowns_[static_cast<std::size_t>(symmetric)] + 1 != static_cast<int>(row_.size())) return std::nullopt;
+  const bool last = unknowns_[static_cast<std::size_t>(symmetric)] + 1 == static_cast<int>(row_.size());
+  if (!last || !changed_.empty()) return std::nullopt;
   std::vector<bool> turned(static_cast<std::size_t>(row_.size()), false);
   const auto constraints = static_cast<Eigen::Index>(equations_.size()) - symmetric;
   for (auto k = equations_.begin() + symmetric; k != equations_.end(); ++k) turned[static_cast<std::size_t>(*k)] = true;
-  const std::optional<Eigen::Index> negative = factors_.NegativeEigenvalues(turned);
+  const std::optional<Eigen::Index> negative = made_->factors.NegativeEigenvalues(turned);
   return negative && *negative >= constraints ? std::optional(*negative - constraints) : std::nullopt;
 }
 
 int LargeFactors::DeterminantSign() const {
-  return odd_ == (along_ < 0.0) ? factors_.DeterminantSign() : -factors_.DeterminantSign();
+  const bool turned = (odd_ != (along_ < 0.0)) != (!changed_.empty() && coupling_.determinant() < 0.0);
+  return turned ? -made_->factors.DeterminantSign() : made_->factors.DeterminantSign();
 }
 
 }  // namespace contact_path

@@ -3,14 +3,16 @@
 #define CONTACT_PATH_SRC_LINEAR_LARGE_FACTORS_H_
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "contact_path/linear/frame.h"
 #include "contact_path/linear/orderings.h"
-#include "linear/umfpack_factors.h"
+#include "linear/ordering.h"
 
 namespace contact_path {
 
@@ -18,35 +20,59 @@ namespace contact_path {
 // few entries, whose places stay, stands for it. N = [J; border], N v = (0, 1); the solution of M x = (b, last) is
 // x = y + a v where N y = (b, 0) and row . x = last, and det M = det N (row . v). N is regular where J has full rank
 // and the border is not orthogonal to its null vector.
+// Where N differs in few equations K from the matrix N0 of the last factors of the frame, as where few laws have changed
+// their states at one point, these serve: N = N0 + E D, E the columns of 1 of K, and with Z = N0^-1 E and C = 1 + D Z,
+// N^-1 = N0^-1 - Z C^-1 D N0^-1 and det N = det N0 det C (Sherman-Morrison-Woodbury).
 class LargeFactors {
  public:
   void Free();
   // transposed: J', n x (n - 1); row: n entries. frame: of the system, or null. Everything is finite. False if M is
   // singular: a pivot below tolerances::kSingularPivot of the largest.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row, const Frame* frame);
+  // The factors of the same J with another row; false if they are singular, until the next row.
+  bool ReplaceRow(const Eigen::VectorXd& row);
 
-  // Of the pivots, smallest over largest.
-  double PivotRatio() const { return factors_.PivotRatio(); }
+  // Of the pivots of N0, smallest over largest.
+  double PivotRatio() const { return made_->factors.PivotRatio(); }
   int DeterminantSign() const;
   // Of J without its last unknown of the frame, as BorderedSolver has it. symmetric: its first equations.
   std::optional<Eigen::Index> NegativeEigenvalues(Eigen::Index symmetric) const;
   // In place: M x = (b, last) for each of so many columns of n entries.
   void Solve(double* x, Eigen::Index columns);
   // In place: M' y = c, c of the unknowns, y of the equations and of the row. M' = N' + (row - border) e', e of the
-  // row: y = z - q z_e / (row . v) where N' z = c and N' q = row - border.
+  // row: N' y = c - (row - border) y_e, y_e = (v . c) / (row . v).
   void SolveTransposed(double* y);
 
  private:
   void Transfer(const Frame& frame, const Eigen::VectorXd& row);
+  void SetRow(const Eigen::VectorXd& row);
   bool SetValues(const Eigen::SparseMatrix<double>& transposed, const Frame& frame);
-  bool FactorizeBordered(bool any_border);
+  // any_border: also with one that is nearly orthogonal to the null vector of J.
+  bool FactorizeBordered(Orderings* orderings, bool any_border);
+  // By the last factors of the frame; false if they do not serve.
+  bool Update(const Frame& frame);
+  bool IsRegular(bool any_border);
+  // D x, and x -= Z C^-1 D x.
+  Eigen::VectorXd Differences(const Eigen::VectorXd& x) const;
+  void TakeDifferences(Eigen::VectorXd* x) const;
+  // Each calls visit(j, unknown, value) for the entries of D, j the place in K.
+  template <typename Visit>
+  void ForEachDifference(Visit visit) const {
+    for (std::size_t j = 0; j < changed_.size(); ++j)
+      for (int at = made_->ordering->analysis.Starts()[static_cast<std::size_t>(changed_[j])];
+           at < made_->ordering->analysis.Starts()[static_cast<std::size_t>(changed_[j]) + 1]; ++at)
+        visit(static_cast<Eigen::Index>(j), made_->ordering->analysis.Entries()[static_cast<std::size_t>(at)],
+              values_[at] - made_->values[at]);
+  }
 
   Orderings own_orderings_;  // of systems without a frame
   std::shared_ptr<const Ordering> ordering_;
-  UmfpackFactors factors_;  // of N, transposed
+  std::shared_ptr<OrderedFactors> made_;           // of N0
+  std::vector<int> changed_;                       // K
+  Eigen::PartialPivLU<Eigen::MatrixXd> coupling_;  // C
   std::vector<int> unknowns_, equations_;
   bool odd_ = false;
-  Eigen::VectorXd values_;           // of N
+  Eigen::VectorXd values_;           // of J
   Eigen::VectorXd border_;           // at the places of the ordering
   Eigen::VectorXd row_, direction_;  // row, v: in the frame
   double along_ = 1.0;               // row . v

@@ -3,6 +3,8 @@
 #define CONTACT_PATH_SRC_LINEAR_ORDERING_H_
 
 #include <Eigen/Core>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "contact_path/linear/frame.h"
@@ -29,6 +31,16 @@ struct Ordering {
   std::vector<int> places;  // of the border, ascending
   Eigen::VectorXd border;   // of the row for which they were chosen
   UmfpackAnalysis analysis;
+};
+
+// Factors of a matrix N = [J; border] with this ordering.
+struct OrderedFactors {
+  std::shared_ptr<const Ordering> ordering;
+  Eigen::VectorXd values;  // of N, those of the border last
+  Eigen::VectorXd along;   // N along = (0, 1)
+  UmfpackFactors factors;  // of N, transposed
+  // N x = e_k by the equation k: of those in which other matrices have differed.
+  std::map<int, Eigen::VectorXd> moved;
 };
 
 }  // namespace contact_path

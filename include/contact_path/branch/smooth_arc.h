@@ -42,11 +42,12 @@ class SmoothArc {
 
   // The point of the curve that a step is to begin at: Newton's method looks for points near it from now on.
   void SetOut(const CurvePoint& at);
-  // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
+  // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns. It sets out with the
+  // factors of the last Derivatives() of these equations where they serve with this row, and factorises anew where
+  // they do not lead on fast.
   Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
   // Newton's method for the point of the curve on the plane through guess with this normal in (u, s), near the tangent.
-  // It sets out with the factors of the last Derivatives() of these equations, and factorises anew where these do not
-  // lead on fast.
+  // It sets out with the factors of the last Derivatives() of these equations.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
   // Newton's method for the point of the curve where a limit is exactly zero, from guess.
   Correction CorrectOnto(const Limit& limit, const Eigen::VectorXd& guess);
@@ -73,6 +74,7 @@ class SmoothArc {
   int factorisations() const { return factorisations_; }
 
  private:
+  Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand);
   // at_hand: with the factors that there are; gives up where they do not lead on fast.
   Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand);
   // A short last step need not leave a small residual: not among stiff parts, nor by the factors of another point.

@@ -39,6 +39,8 @@ class BorderedSolver {
   // nothing; empty where only the springs solve this, and then nothing below can be asked.
   bool FactorizeHeld(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                      const Eigen::MatrixXd& modes, const Frame* frame, Eigen::VectorXd* tangent);
+  // The factors of the same J with another row; false where they do not serve: of small systems they never do.
+  bool ReplaceRow(const Eigen::VectorXd& row);
   // Solves M x = (b, last). The second one allocates nothing where M is regular and *x has its size.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
   void Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const;
