@@ -32,18 +32,18 @@ void FixedModeSystem::SetModes(const Modes& modes, const Eigen::VectorXd& refere
   }
   first_support_ = num_unknowns_;
   num_unknowns_ += static_cast<Eigen::Index>(structure_.PrescribedDofs().size());
-  Rebuild();
+  NumberEquations();
 }
 
 void FixedModeSystem::SetActive(const std::vector<Limit>& limits) {
   active_ = limits;
-  Rebuild();
+  NumberEquations();
 }
 
 void FixedModeSystem::FixLoadFactor(double value) {
   load_factor_fixed_ = true;
   load_factor_ = value;
-  Rebuild();
+  NumberEquations();
 }
 
 FixedModeSystem::Motion FixedModeSystem::MotionOf(const Limit& limit) const {
@@ -71,6 +71,8 @@ PortReals FixedModeSystem::ForcesOf(std::size_t law, const Eigen::VectorXd& x) c
 }
 
 void FixedModeSystem::NumberEquations() {
+  placed_ = false;
+  transposed_.resize(0, 0);
   motions_.clear();
   Eigen::Index next = NumDofs();
   for (const std::size_t i : acting_)
@@ -156,8 +158,6 @@ void FixedModeSystem::ForEachConstantEntry(Emit emit) const {
 }
 
 void FixedModeSystem::Rebuild() {
-  NumberEquations();
-  placed_ = false;
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(static_cast<std::size_t>(tangent_.nonZeros() + NumDofs()) + 6 * acting_.size() +
                    4 * static_cast<std::size_t>(num_equations_ - NumDofs()));
@@ -316,6 +316,7 @@ const Eigen::SparseMatrix<double>& FixedModeSystem::MixedJacobian(const Eigen::V
 }
 
 const Eigen::SparseMatrix<double>& FixedModeSystem::WithTangent(const Eigen::VectorXd& x) {
+  if (transposed_.rows() == 0) Rebuild();
   if (curved_) std::copy_n(constant_.data(), constant_.size(), transposed_.valuePtr());
   // The places of the tangent are among the places of transposed_, in the same order.
   for (Eigen::Index column = 0; column < NumDofs(); ++column) {

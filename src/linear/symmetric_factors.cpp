@@ -23,6 +23,8 @@ constexpr double kMostGrowth = 1e6;    // of |L| |D| |L'|: beyond, rounding may 
 constexpr double kStiffened = 4.0;     // more than a negative stiffness
 constexpr double kLarge = 0.5;         // an entry of a constraint
 constexpr Eigen::Index kDense = 200;   // unknowns and constraints, of which eigenvalues are found as soon as by MUMPS
+constexpr std::size_t kMostChanged = 16;  // rows: more of them take as long as a factorisation
+constexpr double kLeastCoupling = 1e-4;   // of the pivots of an update: it takes four digits at most
 constexpr double kCompliance = -1e-9;  // of redundant constraints: entry of their diagonal
 
 // The numbers of MUMPS' manual, which counts from 1.
@@ -193,17 +195,83 @@ struct SymmetricFactors::Large {
     }
     if (Information(1) == kOutOfMemory) throw std::bad_alloc();
     if (Information(1) < 0 && Information(1) != kSingular) throw LinearSolverError("MUMPS", Information(1));
+    negative = Information(12);
+    changed.clear();
     return Information(1) != kSingular && Information(28) == 0;
   }
 
+  // Of a matrix of the same pattern that differs from the last one, `last`, in few rows and columns: last + E d E', E the
+  // columns of 1 of these rows. With Z = last^-1 E and G = E' Z its inverse is last^-1 - Z (1 + d G)^-1 d Z', and
+  // [last E; E' -d^-1] has its negative eigenvalues and those of -d^-1, or those of last and of -d^-1 - G (Haynsworth),
+  // here with d = Q diag(q) Q' between roots of |q|.
+  bool Update(const Eigen::SparseMatrix<double>& matrix) {
+    const auto same = [](const int* a, const int* b, Eigen::Index count) { return std::equal(a, a + count, b); };
+    if (last.rows() != matrix.rows() || last.nonZeros() != matrix.nonZeros() ||
+        !same(last.outerIndexPtr(), matrix.outerIndexPtr(), matrix.cols() + 1) ||
+        !same(last.innerIndexPtr(), matrix.innerIndexPtr(), matrix.nonZeros()))
+      return false;
+    changed.clear();
+    for (int k = 0; k < static_cast<int>(matrix.cols()); ++k) {
+      if (std::equal(matrix.valuePtr() + matrix.outerIndexPtr()[k], matrix.valuePtr() + matrix.outerIndexPtr()[k + 1],
+                     last.valuePtr() + matrix.outerIndexPtr()[k]))
+        continue;
+      if (changed.size() == kMostChanged) return false;
+      changed.push_back(k);
+    }
+    negative = Information(12);
+    if (changed.empty()) return true;
+    const auto count = static_cast<Eigen::Index>(changed.size());
+    difference.resize(count, count);
+    moved = Eigen::MatrixXd::Zero(matrix.rows(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const int column = changed[static_cast<std::size_t>(j)];
+      moved(column, j) = 1.0;
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const int row = changed[static_cast<std::size_t>(i)];
+        difference(i, j) = matrix.coeff(row, column) - last.coeff(row, column);
+      }
+    }
+    SolveLast(&moved);
+    const Eigen::MatrixXd G = AtChanged(moved);
+    if (!G.allFinite()) return false;
+    coupling.compute(Eigen::MatrixXd::Identity(count, count) + difference * G);
+    if (!(coupling.rcond() > kLeastCoupling)) return false;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(difference);
+    const Eigen::MatrixXd roots = of.eigenvectors() * of.eigenvalues().cwiseAbs().cwiseSqrt().asDiagonal();
+    Eigen::MatrixXd condensed = -roots.transpose() * G * roots;
+    for (Eigen::Index j = 0; j < count; ++j) condensed(j, j) -= of.eigenvalues()[j] < 0.0 ? -1.0 : 1.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> with(condensed, Eigen::EigenvaluesOnly);
+    negative += (with.eigenvalues().array() < 0.0).count() - (of.eigenvalues().array() >= 0.0).count();
+    return true;
+  }
+
+  Eigen::MatrixXd AtChanged(const Eigen::MatrixXd& of) const {
+    Eigen::MatrixXd at(static_cast<Eigen::Index>(changed.size()), of.cols());
+    for (std::size_t j = 0; j < changed.size(); ++j) at.row(static_cast<Eigen::Index>(j)) = of.row(changed[j]);
+    return at;
+  }
+
   void Solve(Eigen::MatrixXd* right) {
+    SolveLast(right);
+    if (!changed.empty()) *right -= moved * coupling.solve(difference * AtChanged(*right));
+  }
+
+  void SolveLast(Eigen::MatrixXd* right) {
+    *right = scale.asDiagonal() * *right;
     mumps.rhs = right->data();
     mumps.nrhs = static_cast<int>(right->cols());
     mumps.lrhs = static_cast<int>(right->rows());
     Call(kSolve);
+    *right = scale.asDiagonal() * *right;
   }
 
   DMUMPS_STRUC_C mumps = {};
+  Eigen::Index negative = 0;
+  Eigen::SparseMatrix<double> last;  // without its scale; empty: not to be updated
+  Eigen::VectorXd scale;
+  std::vector<int> changed;
+  Eigen::MatrixXd difference, moved;               // d, Z
+  Eigen::PartialPivLU<Eigen::MatrixXd> coupling;  // 1 + d G
   std::vector<int> rows, columns;
   std::vector<double> values;
 };
@@ -226,6 +294,8 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
     scale_[column] =
         redundant && is_constraint && largest == 0.0 ? 1.0 : 1.0 / (is_constraint ? largest : std::sqrt(largest));
   }
+  const bool updates = matrix.rows() >= kLargeSystem && !redundant;
+  if (updates && large_ && large_->Update(matrix)) return is_large_ = true;
   if (!scale_.allFinite() || !(scale_.array() > 0.0).all()) return false;
   Eigen::SparseMatrix<double> scaled = scale_.asDiagonal() * matrix * scale_.asDiagonal();
   for (Eigen::Index k = unknowns; redundant && k < matrix.rows(); ++k)
@@ -235,20 +305,25 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
   is_large_ = matrix.rows() >= kLargeSystem || !small_->Factorize(scaled, constraints);
   if (!is_large_) return small_->regular;
   if (!large_) large_ = std::make_unique<Large>();
-  return large_->Factorize(scaled);
+  large_->last.resize(0, 0);
+  large_->scale = scale_;
+  const bool regular = large_->Factorize(scaled);
+  if (regular && updates) large_->last = matrix;
+  return regular;
 }
 
 Eigen::Index SymmetricFactors::NegativeEigenvalues() const {
-  return is_large_ ? large_->Information(12) : small_->negative;
+  return is_large_ ? large_->negative : small_->negative;
 }
 
 void SymmetricFactors::Solve(Eigen::MatrixXd* columns) const {
   if (columns->size() == 0) return;
-  *columns = scale_.asDiagonal() * *columns;
-  if (is_large_)
+  if (is_large_) {
     large_->Solve(columns);
-  else
-    small_->Solve(columns);
+    return;
+  }
+  *columns = scale_.asDiagonal() * *columns;
+  small_->Solve(columns);
   *columns = scale_.asDiagonal() * *columns;
 }
 

@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "contact_path/linear/generic_vector.h"
@@ -34,7 +36,7 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
              (slips_.empty() && symmetric_ && factors_.Factorize(saddle_, constraints, true));
   if (!regular_) return;
   // Each equation of motion is a constraint, whose multiplier makes one eigenvalue negative.
-  negative_ = factors_.NegativeEigenvalues() - constraints;
+  negative_ = factors_.NegativeEigenvalues() - static_cast<Eigen::Index>(places_.size());
   regular_ = negative_ >= 0 && Condense(transposed);
 }
 
@@ -48,7 +50,7 @@ void StabilityProblem::Classify(const PathPoint& point) {
   Modes modes = point.modes;
   slips_.clear();
   covered_ = true;
-  // Unknowns of the saddle: u, then the forces as the system numbers them, without the load factor.
+  // Forces as the system numbers them, without the load factor.
   Eigen::Index next = structure_.NumDofs();
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const Law& law = laws_[i];
@@ -69,8 +71,26 @@ void StabilityProblem::Classify(const PathPoint& point) {
 }
 
 void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed) {
-  const Eigen::Index nd = structure_.NumDofs(), reactions = transposed.rows() - nd - 1, size = nd + reactions;
+  const Eigen::Index nd = structure_.NumDofs(), reactions = transposed.rows() - nd - 1;
   std::vector<Eigen::Triplet<double>> entries, forces, stiffness;
+  Eigen::Index size = nd + reactions;
+  places_.resize(static_cast<std::size_t>(reactions));
+  std::iota(places_.begin(), places_.end(), static_cast<int>(nd));
+  if (const Frame* frame = system_.InFrame()) {
+    size = frame->size - 1;
+    std::copy_n(frame->unknowns.begin() + nd + 1, reactions, places_.begin());
+    std::vector<bool> acts(static_cast<std::size_t>(frame->size), false);
+    for (const int place : places_) acts[static_cast<std::size_t>(place)] = true;
+    for (int equation = 0; equation < nd; ++equation)
+      for (int at = frame->starts[static_cast<std::size_t>(equation)];
+           at < frame->starts[static_cast<std::size_t>(equation) + 1]; ++at)
+        if (const int place = frame->entries[static_cast<std::size_t>(at)]; place >= nd && place < size) {
+          entries.emplace_back(equation, place, 0.0);
+          entries.emplace_back(place, equation, 0.0);
+        }
+    for (int place = static_cast<int>(nd); place < size; ++place)
+      entries.emplace_back(place, place, acts[static_cast<std::size_t>(place)] ? 0.0 : 1.0);
+  }
   double largest = 0.0, skew = 0.0;
   for (Eigen::Index equation = 0; equation < nd; ++equation) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it; ++it) {
@@ -80,10 +100,11 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
         stiffness.emplace_back(static_cast<int>(unknown), static_cast<int>(equation), 0.5 * it.value());
         largest = std::max(largest, std::abs(it.value()));
       } else if (unknown > nd && it.value() != 0.0) {
-        const auto reaction = static_cast<int>(unknown - 1);
-        entries.emplace_back(static_cast<int>(equation), reaction, it.value());
-        entries.emplace_back(reaction, static_cast<int>(equation), it.value());
-        forces.emplace_back(static_cast<int>(equation), reaction - static_cast<int>(nd), -it.value());
+        const Eigen::Index reaction = unknown - 1 - nd;
+        const int place = places_[static_cast<std::size_t>(reaction)];
+        entries.emplace_back(static_cast<int>(equation), place, it.value());
+        entries.emplace_back(place, static_cast<int>(equation), it.value());
+        forces.emplace_back(static_cast<int>(equation), static_cast<int>(reaction), -it.value());
       }
     }
   }
@@ -108,12 +129,13 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
   symmetric_ = skew <= tolerances::kEqual * largest && ForcesActAlongMotions(transposed);
   // What a port that gives way holds is stiffness.
   stiffness.clear();
-  for (Eigen::Index reaction = nd; reaction < size; ++reaction) {
-    const double compliance = transposed.coeff(reaction + 1, reaction);
+  for (Eigen::Index reaction = 0; reaction < reactions; ++reaction) {
+    const double compliance = transposed.coeff(nd + 1 + reaction, nd + reaction);
     if (compliance == 0.0) continue;
-    entries.emplace_back(static_cast<int>(reaction), static_cast<int>(reaction), -compliance);
-    for (Eigen::SparseMatrix<double>::InnerIterator a(forces_, reaction - nd); a; ++a)
-      for (Eigen::SparseMatrix<double>::InnerIterator b(forces_, reaction - nd); b; ++b)
+    const int place = places_[static_cast<std::size_t>(reaction)];
+    entries.emplace_back(place, place, -compliance);
+    for (Eigen::SparseMatrix<double>::InnerIterator a(forces_, reaction); a; ++a)
+      for (Eigen::SparseMatrix<double>::InnerIterator b(forces_, reaction); b; ++b)
         stiffness.emplace_back(static_cast<int>(a.row()), static_cast<int>(b.row()),
                                a.value() * b.value() / compliance);
   }
@@ -148,7 +170,8 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(size, 1 + count);  // by the load, and by unit slips
   solutions.col(0).head(nd) = f;
   for (Eigen::Index k = 0; k < count; ++k)
-    solutions(slips_[static_cast<std::size_t>(k)].following, 1 + k) = -slips_[static_cast<std::size_t>(k)].sense;
+    solutions(PlaceOf(slips_[static_cast<std::size_t>(k)].following), 1 + k) =
+        -slips_[static_cast<std::size_t>(k)].sense;
   factors_.Solve(&solutions);
   if (!solutions.allFinite()) return false;
   by_load_ = solutions.col(0).head(nd);
@@ -187,18 +210,18 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
     load_compliance_ = f.dot(by_load_);
     motions_ = all.block(0, 1, nd, count);
     load_of_slips_ = motions_.transpose() * f;
-    solutions.resize(size, 1 + count);
     solutions.topRows(nd) = all.topRows(nd);
-    solutions.bottomRows(size - nd) = all.bottomRows(all.rows() - nd - 1).topRows(size - nd);
+    for (std::size_t k = 0; k < places_.size(); ++k)
+      solutions.row(places_[k]) = all.row(nd + 1 + static_cast<Eigen::Index>(k));
   }
   w_of_load_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Slip& slip = slips_[static_cast<std::size_t>(i)];
-    const Eigen::RowVectorXd along = slip.sense * solutions.row(slip.following).segment(1, count),
-                             across = slip.ratio * solutions.row(slip.leading).segment(1, count);
+    const Eigen::RowVectorXd along = slip.sense * solutions.row(PlaceOf(slip.following)).segment(1, count),
+                             across = slip.ratio * solutions.row(PlaceOf(slip.leading)).segment(1, count);
     H_.row(i) = along + across;
     stiffest_slip_ = std::max({stiffest_slip_, along.cwiseAbs().maxCoeff(), across.cwiseAbs().maxCoeff()});
-    w_of_load_[i] = slip.sense * solutions(slip.following, 0) + slip.ratio * solutions(slip.leading, 0);
+    w_of_load_[i] = slip.sense * solutions(PlaceOf(slip.following), 0) + slip.ratio * solutions(PlaceOf(slip.leading), 0);
   }
   return H_.allFinite();
 }

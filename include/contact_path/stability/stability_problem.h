@@ -59,9 +59,12 @@ class StabilityProblem {
   struct Slip {
     double sense;                     // sigma
     double ratio;                     // mu
-    Eigen::Index leading, following;  // unknowns of the forces of its ports among those of the saddle
+    Eigen::Index leading, following;  // unknowns of the forces of its ports, without the load factor
   };
 
+  Eigen::Index PlaceOf(Eigen::Index force) const {
+    return places_[static_cast<std::size_t>(force - structure_.NumDofs())];
+  }
   void Classify(const PathPoint& point);
   // Of each port that is held, whether its force acts along the gradient of its motion.
   bool ForcesActAlongMotions(const Eigen::SparseMatrix<double>& transposed) const;
@@ -80,6 +83,7 @@ class StabilityProblem {
   SymmetricFactors factors_;
   BorderedSolver unsymmetric_;
 
+  std::vector<int> places_;  // of the forces in the saddle: where there is a frame, as there, and others are zero
   std::vector<Slip> slips_;
   bool covered_ = true;                                      // by the theory: no holonomic law
   bool regular_ = false;                                     // the saddle is
