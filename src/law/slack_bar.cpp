@@ -98,7 +98,10 @@ void SlackBar::SetBar(Traits traits) {
   SetLaw(traits, std::move(states));
 }
 
-double SlackBar::Least() const { return tolerances::kSmallShare * rest_length_; }
+double SlackBar::Least() const {
+  // One span of a taut bar is as long as the bar; one of several may have any length.
+  return (spans_.size() > 1 ? tolerances::kRootOfRounding : tolerances::kSmallShare) * rest_length_;
+}
 
 double SlackBar::Wound(const Eigen::VectorXd& u, double s) const {
   double wound = 0.0;

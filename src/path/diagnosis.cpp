@@ -1,6 +1,7 @@
 #include "contact_path/path/diagnosis.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -297,8 +298,15 @@ Causes BehindBoundary(const Model& model, const PathPoint& point) {
 Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint& point) {
   if (start.obstacles.empty()) return {};
   std::set<std::pair<std::string_view, std::string_view>> candidates;
-  for (const ContactCandidate& contact : model.scene.contacts) candidates.emplace(contact.node, contact.obstacle);
-  const std::vector<double> positions = model.InSceneUnits(point).positions;
+  std::set<std::string_view> slides;  // no places
+  for (const ContactCandidate& contact : model.scene.contacts) {
+    candidates.emplace(contact.node, contact.obstacle);
+    if (contact.at_eye) slides.insert(contact.node);
+  }
+  const CheckedState state = model.InSceneUnits(point);
+  const auto place_of = [&](std::size_t node) {
+    return Eigen::Vector2d(state.positions[2 * node], state.positions[2 * node + 1]);
+  };
   const std::vector<Obstacle> now = ObstaclesAt(model.scene, model.index, point.s * model.scaling.load_factor);
   const double least = kDeep * model.scaling.length;
   // By depth in thousandths of the least one: equal depths stay in the order of the scene, whatever rounding makes of
@@ -306,9 +314,16 @@ Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint&
   std::vector<std::pair<long long, std::string>> inside;
   for (std::size_t k = 0; k < now.size(); ++k) {
     const std::unique_ptr<const Surface> before = MakeSurface(start.obstacles[k]), after = MakeSurface(now[k]);
+    const std::optional<std::size_t> body =
+        now[k].body.empty() ? std::nullopt : std::optional(model.index.Node(now[k].body));
     for (std::size_t i = 0; i < start.nodes.size(); ++i) {
       const Node& node = start.nodes[i];
-      const double depth = DepthIn(*after, {positions[2 * i], positions[2 * i + 1]});
+      if (slides.count(node.name) > 0) continue;
+      Eigen::Vector2d place = place_of(i);
+      if (body)  // as the body sees it, where it was at the start
+        place = Eigen::Rotation2D(-state.rotations[*body]) * (place - place_of(*body)) +
+                Eigen::Vector2d(start.nodes[*body].x, start.nodes[*body].y);
+      const double depth = DepthIn(*after, place);
       if (depth > least && DepthIn(*before, {node.x, node.y}) <= least &&
           candidates.count({node.name, now[k].name}) == 0)
         inside.emplace_back(std::llround(-1e3 * depth / least),

@@ -11,6 +11,7 @@
 
 #include "contact_path/scene/cell.h"
 #include "scene/expand_tendon.h"
+#include "scene/idle_rotation.h"
 #include "scene/input_bounds.h"
 
 namespace contact_path {
@@ -413,6 +414,7 @@ Expansion Expand(const TraceRequest& request) {
   expansion.contacts = ExpandContacts(groups, &scene);
   ExpandLoading(groups, &scene, &expansion);
   for (Stage& stage : expansion.request.program) ExpandLoading(groups, &stage, &expansion);
+  FixIdleRotations(&expansion.request);
   return expansion;
 }
 
