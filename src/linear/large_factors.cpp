@@ -162,7 +162,8 @@ bool LargeFactors::Update(const Frame& frame) {
   }
   const auto count = static_cast<Eigen::Index>(changed_.size());
   Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(count, count);
-  for (Eigen::Index j = 0; j < count; ++j) coupling.col(j) += Differences(moved.at(changed_[static_cast<std::size_t>(j)]));
+  for (Eigen::Index j = 0; j < count; ++j)
+    coupling.col(j) += Differences(moved.at(changed_[static_cast<std::size_t>(j)]));
   if (!coupling.allFinite()) return false;
   coupling_.compute(coupling);
   if (!(coupling_.rcond() > kLeastCoupling)) return false;

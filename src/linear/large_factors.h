@@ -20,9 +20,9 @@ namespace contact_path {
 // few entries, whose places stay, stands for it. N = [J; border], N v = (0, 1); the solution of M x = (b, last) is
 // x = y + a v where N y = (b, 0) and row . x = last, and det M = det N (row . v). N is regular where J has full rank
 // and the border is not orthogonal to its null vector.
-// Where N differs in few equations K from the matrix N0 of the last factors of the frame, as where few laws have changed
-// their states at one point, these serve: N = N0 + E D, E the columns of 1 of K, and with Z = N0^-1 E and C = 1 + D Z,
-// N^-1 = N0^-1 - Z C^-1 D N0^-1 and det N = det N0 det C (Sherman-Morrison-Woodbury).
+// Where N differs in few equations K from the matrix N0 of the last factors of the frame, as where few laws have
+// changed their states at one point, these serve: N = N0 + E D, E the columns of 1 of K, and with Z = N0^-1 E and C = 1
+// + D Z, N^-1 = N0^-1 - Z C^-1 D N0^-1 and det N = det N0 det C (Sherman-Morrison-Woodbury).
 class LargeFactors {
  public:
   void Free();

@@ -19,13 +19,13 @@ namespace contact_path {
 namespace {
 
 // Of scaled matrices, whose entries are 1 at most.
-constexpr double kMostGrowth = 1e6;    // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
-constexpr double kStiffened = 4.0;     // more than a negative stiffness
-constexpr double kLarge = 0.5;         // an entry of a constraint
-constexpr Eigen::Index kDense = 200;   // unknowns and constraints, of which eigenvalues are found as soon as by MUMPS
-constexpr std::size_t kMostChanged = 16;  // rows: more of them take as long as a factorisation
-constexpr double kLeastCoupling = 1e-4;   // of the pivots of an update: it takes four digits at most
-constexpr double kCompliance = -1e-9;  // of redundant constraints: entry of their diagonal
+constexpr double kMostGrowth = 1e6;   // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
+constexpr double kStiffened = 4.0;    // more than a negative stiffness
+constexpr double kLarge = 0.5;        // an entry of a constraint
+constexpr Eigen::Index kDense = 200;  // unknowns and constraints, of which eigenvalues are found as soon as by MUMPS
+constexpr std::size_t kMostChangedRows = 16;  // rows: more of them take as long as a factorisation
+constexpr double kLeastOfUpdate = 1e-4;       // of the pivots of an update: it takes four digits at most
+constexpr double kCompliance = -1e-9;         // of redundant constraints: entry of their diagonal
 
 // The numbers of MUMPS' manual, which counts from 1.
 enum Communicator : int { kUseCommWorld = -987654 };
@@ -200,8 +200,8 @@ struct SymmetricFactors::Large {
     return Information(1) != kSingular && Information(28) == 0;
   }
 
-  // Of a matrix of the same pattern that differs from the last one, `last`, in few rows and columns: last + E d E', E the
-  // columns of 1 of these rows. With Z = last^-1 E and G = E' Z its inverse is last^-1 - Z (1 + d G)^-1 d Z', and
+  // Of a matrix of the same pattern that differs from the last one, `last`, in few rows and columns: last + E d E', E
+  // the columns of 1 of these rows. With Z = last^-1 E and G = E' Z its inverse is last^-1 - Z (1 + d G)^-1 d Z', and
   // [last E; E' -d^-1] has its negative eigenvalues and those of -d^-1, or those of last and of -d^-1 - G (Haynsworth),
   // here with d = Q diag(q) Q' between roots of |q|.
   bool Update(const Eigen::SparseMatrix<double>& matrix) {
@@ -215,7 +215,7 @@ struct SymmetricFactors::Large {
       if (std::equal(matrix.valuePtr() + matrix.outerIndexPtr()[k], matrix.valuePtr() + matrix.outerIndexPtr()[k + 1],
                      last.valuePtr() + matrix.outerIndexPtr()[k]))
         continue;
-      if (changed.size() == kMostChanged) return false;
+      if (changed.size() == kMostChangedRows) return false;
       changed.push_back(k);
     }
     negative = Information(12);
@@ -235,7 +235,7 @@ struct SymmetricFactors::Large {
     const Eigen::MatrixXd G = AtChanged(moved);
     if (!G.allFinite()) return false;
     coupling.compute(Eigen::MatrixXd::Identity(count, count) + difference * G);
-    if (!(coupling.rcond() > kLeastCoupling)) return false;
+    if (!(coupling.rcond() > kLeastOfUpdate)) return false;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(difference);
     const Eigen::MatrixXd roots = of.eigenvectors() * of.eigenvalues().cwiseAbs().cwiseSqrt().asDiagonal();
     Eigen::MatrixXd condensed = -roots.transpose() * G * roots;
@@ -270,7 +270,7 @@ struct SymmetricFactors::Large {
   Eigen::SparseMatrix<double> last;  // without its scale; empty: not to be updated
   Eigen::VectorXd scale;
   std::vector<int> changed;
-  Eigen::MatrixXd difference, moved;               // d, Z
+  Eigen::MatrixXd difference, moved;              // d, Z
   Eigen::PartialPivLU<Eigen::MatrixXd> coupling;  // 1 + d G
   std::vector<int> rows, columns;
   std::vector<double> values;
@@ -312,9 +312,7 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
   return regular;
 }
 
-Eigen::Index SymmetricFactors::NegativeEigenvalues() const {
-  return is_large_ ? large_->negative : small_->negative;
-}
+Eigen::Index SymmetricFactors::NegativeEigenvalues() const { return is_large_ ? large_->negative : small_->negative; }
 
 void SymmetricFactors::Solve(Eigen::MatrixXd* columns) const {
   if (columns->size() == 0) return;

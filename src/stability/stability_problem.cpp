@@ -221,7 +221,8 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
                              across = slip.ratio * solutions.row(PlaceOf(slip.leading)).segment(1, count);
     H_.row(i) = along + across;
     stiffest_slip_ = std::max({stiffest_slip_, along.cwiseAbs().maxCoeff(), across.cwiseAbs().maxCoeff()});
-    w_of_load_[i] = slip.sense * solutions(PlaceOf(slip.following), 0) + slip.ratio * solutions(PlaceOf(slip.leading), 0);
+    w_of_load_[i] =
+        slip.sense * solutions(PlaceOf(slip.following), 0) + slip.ratio * solutions(PlaceOf(slip.leading), 0);
   }
   return H_.allFinite();
 }

@@ -238,6 +238,32 @@ TEST(BorderedSolver, LargeWithARowOfManyEntries) {
   }
 }
 
+// By the factors of a matrix that differs from it in few equations, and with another row.
+TEST(BorderedSolver, LargeWithFewChangedEquations) {
+  const Eigen::Index n = 4000;
+  Eigen::VectorXd d = Eigen::VectorXd::Constant(n - 1, 2.0);
+  BorderedSolver updated;
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n - 1, -1.0, 2.0), c = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0);
+  for (int changed = 0; changed < 40; changed += 3) {
+    for (int i = 0; i < changed; ++i) d[n - 2 - i] = i % 2 == 0 ? -1.5 : 0.5;
+    const Chain chain = ChainOf(d);
+    Eigen::VectorXd row = Eigen::VectorXd::LinSpaced(n, 0.1, 0.5);
+    ASSERT_TRUE(updated.FactorizeRegular(chain.transposed, row));
+    for (const bool other : {false, true}) {
+      if (other) {
+        row = Eigen::VectorXd::Unit(n, n - 1);
+        ASSERT_TRUE(updated.ReplaceRow(row));
+      }
+      BorderedSolver anew;
+      ASSERT_TRUE(anew.FactorizeRegular(chain.transposed, row));
+      EXPECT_EQ(updated.DeterminantSign(), anew.DeterminantSign()) << changed;
+      const Eigen::VectorXd x = anew.Solve(b, 0.7), y = anew.SolveTransposed(c);
+      EXPECT_LE((updated.Solve(b, 0.7) - x).norm(), 1e-10 * x.norm()) << changed;
+      EXPECT_LE((updated.SolveTransposed(c) - y).norm(), 1e-10 * y.norm()) << changed;
+    }
+  }
+}
+
 TEST(BorderedSolver, LargeWithFewEntriesInTheRow) {
   const Eigen::Index n = 30000;
   const Chain chain = ChainOf(Eigen::VectorXd::Constant(n - 1, -1.1));

@@ -82,6 +82,38 @@ TEST(SymmetricFactorsTest, LargeMatrices) {
   EXPECT_LT((x - wanted).norm(), 1e-9 * wanted.norm());
 }
 
+// A chain of springs, one of them negative, and constraints that come and go: a constraint that is out of the system
+// has its place, with a one on the diagonal.
+TEST(SymmetricFactorsTest, ConstraintsThatComeAndGo) {
+  const Eigen::Index unknowns = kLargeSystem, places = 10;
+  SymmetricFactors updated;
+  for (const unsigned acting : {0U, 1U, 5U, 5U, 2U, 0x3ffU, 0x3feU}) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < unknowns; ++i) {
+      entries.emplace_back(i, i, i == 1000 ? -1.0 : 2.1);
+      if (i > 0) entries.emplace_back(i, i - 1, -1.0);
+      if (i > 0) entries.emplace_back(i - 1, i, -1.0);
+    }
+    for (int k = 0; k < places; ++k) {
+      const bool acts = (acting >> k & 1U) != 0;
+      const int place = static_cast<int>(unknowns) + k, at = 1000 + 7 * k;
+      entries.emplace_back(place, place, acts ? 0.0 : 1.0);
+      entries.emplace_back(place, at, acts ? -1.0 : 0.0);
+      entries.emplace_back(at, place, acts ? -1.0 : 0.0);
+    }
+    Eigen::SparseMatrix<double> matrix(unknowns + places, unknowns + places);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    SymmetricFactors anew;
+    ASSERT_TRUE(updated.Factorize(matrix, places)) << acting;
+    ASSERT_TRUE(anew.Factorize(matrix, places)) << acting;
+    EXPECT_EQ(updated.NegativeEigenvalues(), anew.NegativeEigenvalues()) << acting;
+    const Eigen::MatrixXd wanted = Random(2).Vector(matrix.rows(), -1.0, 1.0);
+    Eigen::MatrixXd x = matrix * wanted;
+    updated.Solve(&x);
+    EXPECT_LT((x - wanted).norm(), 1e-12 * wanted.norm()) << acting;
+  }
+}
+
 // Regular matrices that have no factors without pivots of size two, or with small ones only.
 TEST(SymmetricFactorsTest, SmallPivots) {
   SymmetricFactors factors;
