@@ -73,13 +73,13 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
     else if (known != ordering_)
       border_ = known->border;
     ordering_ = known;
-    if (FactorizeBordered(frame->orderings, false)) return true;
+    if (FactorizeBordered(false)) return true;
     // The border may be what made N singular, where it is not the row's own.
     if (known->places == LargestPlaces(row_)) return false;
   }
   ordering_ = frame->orderings->Add(*frame, row_);
   border_ = ordering_->border;
-  return FactorizeBordered(frame->orderings, true);
+  return FactorizeBordered(true);
 }
 
 void LargeFactors::Transfer(const Frame& frame, const Eigen::VectorXd& row) {
@@ -120,7 +120,7 @@ bool LargeFactors::SetValues(const Eigen::SparseMatrix<double>& transposed, cons
   return true;
 }
 
-bool LargeFactors::FactorizeBordered(Orderings* orderings, bool any_border) {
+bool LargeFactors::FactorizeBordered(bool any_border) {
   changed_.clear();
   made_ = nullptr;
   made_ = std::make_shared<OrderedFactors>();
@@ -134,20 +134,37 @@ bool LargeFactors::FactorizeBordered(Orderings* orderings, bool any_border) {
   made_->factors.SolveTransposed(right_.data(), made_->along.data());
   direction_ = made_->along;
   if (!IsRegular(any_border)) return false;
-  orderings->Note(made_);
+  std::vector<std::weak_ptr<OrderedFactors>>& made = ordering_->made;
+  made.erase(std::remove_if(made.begin(), made.end(), [](const auto& factors) { return factors.expired(); }),
+             made.end());
+  made.push_back(made_);
   return true;
 }
 
 bool LargeFactors::Update(const Frame& frame) {
-  std::shared_ptr<OrderedFactors> made = frame.orderings->LastFactors();
-  if (made == nullptr || !made->ordering->Suits(frame)) return false;
-  changed_.clear();
-  for (std::size_t k = 0; k + 1 < frame.starts.size(); ++k) {
-    const int begin = frame.starts[k], count = frame.starts[k + 1] - begin;
-    if (values_.segment(begin, count) == made->values.segment(begin, count)) continue;
-    if (changed_.size() == kMostChanged) return false;
-    changed_.push_back(static_cast<int>(k));
+  const std::shared_ptr<const Ordering> ordering = frame.orderings->Find(frame, row_);
+  if (ordering == nullptr) return false;
+  // The places where N differs from the matrix of these factors; nothing where it differs too much.
+  const auto changed_from = [&](const OrderedFactors& factors) -> std::optional<std::vector<int>> {
+    std::vector<int> changed;
+    for (std::size_t k = 0; k + 1 < frame.starts.size(); ++k) {
+      const int begin = frame.starts[k], count = frame.starts[k + 1] - begin;
+      if (values_.segment(begin, count) == factors.values.segment(begin, count)) continue;
+      if (changed.size() == kMostChanged) return std::nullopt;
+      changed.push_back(static_cast<int>(k));
+    }
+    return changed;
+  };
+  std::shared_ptr<OrderedFactors> made;
+  for (const std::weak_ptr<OrderedFactors>& any : ordering->made) {
+    std::shared_ptr<OrderedFactors> factors = any.lock();
+    if (factors == nullptr) continue;
+    std::optional<std::vector<int>> changed = changed_from(*factors);
+    if (!changed || (made != nullptr && changed->size() > changed_.size())) continue;
+    changed_ = *std::move(changed);
+    made = std::move(factors);
   }
+  if (made == nullptr) return false;
   made_ = std::move(made);
   ordering_ = made_->ordering;
   border_ = made_->values.tail(static_cast<Eigen::Index>(ordering_->places.size()));

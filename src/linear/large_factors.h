@@ -20,7 +20,7 @@ namespace contact_path {
 // few entries, whose places stay, stands for it. N = [J; border], N v = (0, 1); the solution of M x = (b, last) is
 // x = y + a v where N y = (b, 0) and row . x = last, and det M = det N (row . v). N is regular where J has full rank
 // and the border is not orthogonal to its null vector.
-// Where N differs in few equations K from the matrix N0 of the last factors of the frame, as where few laws have
+// Where N differs in few equations K from the matrix N0 of other factors of the frame, as where few laws have
 // changed their states at one point, these serve: N = N0 + E D, E the columns of 1 of K, and with Z = N0^-1 E and C = 1
 // + D Z, N^-1 = N0^-1 - Z C^-1 D N0^-1 and det N = det N0 det C (Sherman-Morrison-Woodbury).
 class LargeFactors {
@@ -48,8 +48,8 @@ class LargeFactors {
   void SetRow(const Eigen::VectorXd& row);
   bool SetValues(const Eigen::SparseMatrix<double>& transposed, const Frame& frame);
   // any_border: also with one that is nearly orthogonal to the null vector of J.
-  bool FactorizeBordered(Orderings* orderings, bool any_border);
-  // By the last factors of the frame; false if they do not serve.
+  bool FactorizeBordered(bool any_border);
+  // By factors that solvers of the frame have; false if they do not serve.
   bool Update(const Frame& frame);
   bool IsRegular(bool any_border);
   // D x, and x -= Z C^-1 D x.

@@ -21,6 +21,8 @@ Eigen::VectorXd EntriesAt(const std::vector<int>& places, const Eigen::VectorXd&
 // Whether the entries of the row at these places make a border for it.
 bool AreGoodPlaces(const std::vector<int>& places, const Eigen::VectorXd& row);
 
+struct OrderedFactors;
+
 // Of the pattern of a frame and a border.
 struct Ordering {
   // row: in the frame.
@@ -31,6 +33,7 @@ struct Ordering {
   std::vector<int> places;  // of the border, ascending
   Eigen::VectorXd border;   // of the row for which they were chosen
   UmfpackAnalysis analysis;
+  mutable std::vector<std::weak_ptr<OrderedFactors>> made;  // the newest last: for as long as solvers have them
 };
 
 // Factors of a matrix N = [J; border] with this ordering.
