@@ -1,4 +1,4 @@
-// Orderings and factors of large systems, shared by the solvers of one structure.
+// Orderings of large systems, shared by the solvers of one structure.
 #ifndef CONTACT_PATH_LINEAR_ORDERINGS_H_
 #define CONTACT_PATH_LINEAR_ORDERINGS_H_
 
@@ -11,7 +11,6 @@
 namespace contact_path {
 
 struct Ordering;
-struct OrderedFactors;
 
 // The last few orderings. An ordering is of the pattern of a frame and of the border that stands for the last row of
 // its systems: src/linear/large_factors.h. Not for several threads at once.
@@ -28,13 +27,8 @@ class Orderings {
   // A new one, with the border where the row is largest.
   std::shared_ptr<const Ordering> Add(const Frame& frame, const Eigen::VectorXd& row);
 
-  // The last factors that were made, for as long as a solver has them; or null.
-  std::shared_ptr<OrderedFactors> LastFactors() const { return last_factors_.lock(); }
-  void Note(const std::shared_ptr<OrderedFactors>& made) { last_factors_ = made; }
-
  private:
   std::vector<std::shared_ptr<const Ordering>> kept_;  // the newest last
-  std::weak_ptr<OrderedFactors> last_factors_;
 };
 
 }  // namespace contact_path
