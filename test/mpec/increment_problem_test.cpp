@@ -266,7 +266,7 @@ TEST(CompliantProblem, DerivativesMeetDifferences) {
   scene.contacts = {{"a", "floor"}};
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
-  const SlackBar bar({MovingPlace::Between(PointOfNode(-1, -1, {-1.0, 0.5}), PointOfNode(0, 1))}, 1.7, 1.1,
+  const SlackBar bar({{MovingPlace::Between(PointOfNode(-1, -1, {-1.0, 0.5}), PointOfNode(0, 1))}}, {}, 1.7, 1.1,
                      StrainMeasure::kBiot, BarSense::kTension);
   Laws laws = LawsOf(contacts);
   laws.Add(&bar);
