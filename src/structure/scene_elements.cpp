@@ -130,7 +130,8 @@ class TendonElement : public Element {
     }
     k = FirstSlide() + 2 * static_cast<Eigen::Index>(slides_.size());
     for (const double by_turn : by_turn_) length += by_turn * x[k++];
-    return EA_ * std::max(length / Rest(x) - 1.0, 0.0);
+    const double rest = Rest(x);
+    return EA_ / rest * std::max(length - rest, 0.0);
   }
 
   double EA_, rest_;
