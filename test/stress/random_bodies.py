@@ -4,8 +4,8 @@
 Usage: random_bodies.py TRACE VERIFY DIRECTORY [--seeds FROM:TO]
 
 TRACE and VERIFY are contact_path_trace and verify. Each seed is the same scene on every machine: a box, a disc, both, a body in a sling,
-a fin that presses a disc, or a rope through two eyes on springs; tendons of even seeds have friction at their eyes. Each path is verified
-from its bag, and the scene is traced again in other units, mirrored, with its lists in another order, and with another step: kinds and
+a fin that presses a disc, or a rope through two eyes on springs; tendons of even seeds have friction at their eyes, those of every
+third seed rollers in place of them. Each path is verified from its bag, and the scene is traced again in other units, mirrored, with its lists in another order, and with another step: kinds and
 load factors of events must be the same to 1e-6. A line is printed for each path that ends by a fault of the tracer, each that is not
 proved, and each that differs. Exit status 0 only if none is not proved or differs.
 """
@@ -31,10 +31,12 @@ class RandomScene:
         self.scene = {name: [] for name in ('nodes', 'bodies', 'bars', 'tendons', 'beams', 'superelements', 'obstacles', 'contacts', 'loads')}
         self.add('obstacles', name='floor', shape='half_plane', nx=0.0, ny=1.0, friction=self.random.choice([0.0, 0.2, 0.5, 0.9]))
         getattr(self, self.random.choice(['box', 'disc', 'box_and_disc', 'sling', 'fin', 'rope']))()
-        if seed % 2 == 0:  # with friction at eyes
-            for tendon in self.scene['tendons']:
-                if len(tendon['nodes']) > 2:
-                    tendon['friction'] = self.number(0.05, 0.4)
+        through_eyes = [tendon for tendon in self.scene['tendons'] if len(tendon['nodes']) > 2]
+        for tendon in through_eyes:
+            if seed % 2 == 0:
+                tendon['friction'] = self.number(0.05, 0.4)
+            if seed % 3 == 0:
+                self.put_on_rollers(tendon)
 
     def add(self, part, **fields):
         self.scene[part].append(fields)
@@ -44,6 +46,14 @@ class RandomScene:
 
     def ground(self, name, x, y, **fields):
         self.add('nodes', name=name, x=x, y=y, fixed_x=True, fixed_y=True, **fields)
+
+    def put_on_rollers(self, tendon):
+        """In place of its eyes, on the sides to which it turns."""
+        places = {node['name']: complex(node['x'], node['y']) for node in self.scene['nodes']}
+        at = [places[name] for name in tendon['nodes']]
+        sides = [1 if ((c - b) * (b - a).conjugate()).imag > 0.0 else -1 for a, b, c in zip(at, at[1:], at[2:])]
+        tendon['radii'] = [0.0, *(self.number(0.02, 0.15) for _ in sides), 0.0]
+        tendon['turns'] = [0, *sides, 0]
 
     def weight(self, body):
         self.add('loads', body=body, by=-self.number(0.5, 2.0), constant=True)
