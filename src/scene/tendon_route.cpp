@@ -1,9 +1,11 @@
 #include "contact_path/scene/tendon_route.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "contact_path/geometry/plane.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/text.h"
 
 namespace contact_path {
@@ -11,6 +13,7 @@ namespace {
 
 constexpr double kWholeTurn = 6.283185307179586;  // [rad]
 constexpr double kMostTurns = 100.0;
+constexpr double kNearlyHalf = 3.1;  // of a turn [rad]
 
 // From 0 to a whole turn.
 double Positive(double angle) { return angle < 0.0 ? angle + kWholeTurn : angle; }
@@ -97,6 +100,52 @@ double LengthOn(const TendonRoute& route, const std::vector<Eigen::Vector2d>& po
     length += span.tangent.norm() + span.arcs;
   }
   return length;
+}
+
+TendonRoute RouteIn(const Scene& scene, const SceneIndex& index, const Tendon& tendon) {
+  std::vector<Eigen::Vector2d> points;
+  for (const std::string& name : tendon.nodes) {
+    const Node& node = scene.nodes[index.Node(name)];
+    points.emplace_back(node.x, node.y);
+  }
+  return RouteOf(tendon, points);
+}
+
+std::vector<WrapLimit> WrapLimits(const Scene& scene, const SceneIndex& index) {
+  std::vector<WrapLimit> limits;
+  for (std::size_t k = 0; k < scene.tendons.size(); ++k) {
+    const Tendon& tendon = scene.tendons[k];
+    if (tendon.radii.empty()) continue;
+    const TendonRoute route = RouteIn(scene, index, tendon);
+    const std::string name = TendonName(tendon, k);
+    const std::size_t last = tendon.nodes.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+      if (i < last && route.spans[i].Delta() != 0.0) {
+        limits.push_back({WrapLimit::Kind::kTurns, name, kNearlyHalf, {{1.0, k, i}}});
+        limits.back().both_senses = true;
+      }
+      const double rho = SignedRadius(tendon, i), sense = rho > 0.0 ? 1.0 : -1.0;
+      if (rho == 0.0) continue;
+      const bool slides = i <= 1 && !tendon.slides[i].empty(), ends = i == 0 || i == last;
+      const std::string body = ends ? BodyOfDrum(tendon, i == 0 ? 0 : 1, scene, index) : std::string();
+      if (slides && i == 0 && body.empty()) continue;  // the piece before has the whole angle
+      WrapLimit limit{WrapLimit::Kind::kComesOff, name + " at " + tendon.nodes[i], route.wrapped[i], {}};
+      if (i > 0) limit.turns.push_back({-sense, k, i - 1});
+      if (i < last) limit.turns.push_back({sense, k, i});
+      if (slides && body.empty()) {
+        const auto next = std::find_if(scene.tendons.begin(), scene.tendons.end(),
+                                       [&](const Tendon& known) { return known.slides[0] == tendon.slides[1]; });
+        limit.start += next->wrapped[0];
+        limit.turns.push_back({sense, static_cast<std::size_t>(next - scene.tendons.begin()), 0});
+      } else if (!body.empty()) {
+        if (slides) limit.kind = WrapLimit::Kind::kHauled;
+        limit.of_body = i == 0 ? -sense : sense;
+        limit.body = body;
+      }
+      limits.push_back(std::move(limit));
+    }
+  }
+  return limits;
 }
 
 }  // namespace contact_path

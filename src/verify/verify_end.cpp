@@ -9,12 +9,14 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/scene/tendon_route.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {
 namespace {
 
 constexpr double kFrictionLeft = 2e-6;  // of that at the load factor 0
+constexpr double kWrapped = 1e-8;       // angle that is nothing [rad]
 
 bool ProgramDone(const TraceRequest& request, const Increment& last) {
   return last.stage == static_cast<int>(request.program.size()) && AtTarget(request, last);
@@ -59,6 +61,24 @@ bool FrictionIsGone(const TraceRequest& request, const Increment& last) {
   return false;
 }
 
+// Whether nothing is left of an angle by which a tendon is wrapped.
+bool TendonComesOff(const TraceRequest& request, const Increment& last) {
+  const Scene& scene = request.scene;
+  const SceneIndex index(scene);
+  const auto turned = [&](const WrapLimit::Turn& turn) {
+    const Tendon& tendon = scene.tendons[turn.tendon];
+    const RolledSpan span = RouteIn(scene, index, tendon).spans[turn.span];
+    const std::vector<Eigen::Vector2d> ends = PointsOf({static_cast<int>(index.Node(tendon.nodes[turn.span])),
+                                                        static_cast<int>(index.Node(tendon.nodes[turn.span + 1]))},
+                                                       last.positions);
+    return span.Turned(span.Of(ends[1] - ends[0], 0.0).tangent);
+  };
+  const std::vector<WrapLimit> limits = WrapLimits(scene, index);
+  return std::any_of(limits.begin(), limits.end(), [&](const WrapLimit& limit) {
+    return limit.Left(turned, limit.body.empty() ? 0.0 : last.rotations[index.Node(limit.body)]) <= kWrapped;
+  });
+}
+
 }  // namespace
 
 std::string EndContradicted(const TraceRequest& request_given, const std::vector<Increment>& increments,
@@ -86,7 +106,9 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
     return last.index == wanted ? "" : says + "the request wants " + std::to_string(wanted) + " increments";
   }
   if (reason == "path_end") {
-    if (last.positions.empty() || Escapes(request, increments) || FrictionIsGone(request, last)) return {};
+    if (last.positions.empty() || Escapes(request, increments) || FrictionIsGone(request, last) ||
+        TendonComesOff(request, last))
+      return {};
     if (!request.options.LocatesEvents()) return says + "increments by Ipopt cannot tell the end of a path";
     const bool parts = last.kind == IncrementKind::kStart || last.event.number > 0 || !last.event.branches.empty();
     return parts && last.event.taken == 0 ? "" : says + "the path goes on from the last increment";

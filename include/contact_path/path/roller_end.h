@@ -3,17 +3,15 @@
 #define CONTACT_PATH_PATH_ROLLER_END_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "contact_path/branch/arc_target.h"
-#include "contact_path/geometry/rolled_span.h"
 #include "contact_path/law/path_point.h"
 #include "contact_path/law/slack_bar.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/model.h"
+#include "contact_path/scene/tendon_route.h"
 
 namespace contact_path {
 
@@ -31,23 +29,15 @@ class RollerEnds {
   std::optional<Cause> At(const PathPoint& point) const;
 
  private:
-  // The sum of angles since the start, each times a factor: of spans and of a body.
-  struct Turn {
-    double factor;
-    BarSpan span;
-  };
-  struct Limit {
-    Cause cause;
-    double start;  // what is left at the start [rad]; less its rounding
-    std::vector<Turn> turns;
-    double of_body = 0.0;
-    Coordinate body = {};
-    bool both_senses = false;  // the turn counts without its sign
+  struct Placed {
+    WrapLimit limit;
+    std::vector<BarSpan> spans;  // of the turns of the limit
+    Coordinate turn = {};        // of its body
 
     double Left(const Eigen::VectorXd& u, double s) const;  // < 0: beyond
   };
   Eigen::Index num_dofs_;
-  std::vector<Limit> limits_;
+  std::vector<Placed> limits_;
 };
 
 }  // namespace contact_path

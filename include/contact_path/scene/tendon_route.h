@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -51,6 +52,41 @@ const std::string& BodyOfDrum(const Tendon& tendon, std::size_t end, const Scene
 // The length at places of its nodes, with the rollers at its ends turned by these angles since the start.
 double LengthOn(const TendonRoute& route, const std::vector<Eigen::Vector2d>& points,
                 const std::array<double, 2>& turned);
+
+// An angle that must stay > 0: start + the sum of factor times what a span has turned since the start, + of_body times
+// the turn of a body; where both senses count, start - |that sum|.
+struct WrapLimit {
+  enum class Kind {
+    kComesOff,  // what a tendon is wrapped round a roller by, or wound on a drum
+    kHauled,    // what is left between the middle of the arc at the start, carried by a roller that turns, and its end
+    kTurns,     // what is left to nearly half a turn of a span between unequal rollers
+  };
+  struct Turn {
+    double factor;
+    std::size_t tendon, span;  // places in the scene and in the tendon
+  };
+  Kind kind;
+  std::string of;  // the tendon, or tendon and node
+  double start;    // [rad]
+  std::vector<Turn> turns;
+  double of_body = 0.0;
+  std::string body = {};
+  bool both_senses = false;
+
+  // turned: of a turn's span. rotation: of the body.
+  template <typename Turned>
+  double Left(Turned turned, double rotation) const {
+    double sum = of_body == 0.0 ? 0.0 : of_body * rotation;
+    for (const Turn& turn : turns) sum += turn.factor * turned(turn);
+    return start + (both_senses ? -std::abs(sum) : sum);
+  }
+};
+
+// Of all tendons of an expanded scene, by the places of its nodes.
+std::vector<WrapLimit> WrapLimits(const Scene& scene, const SceneIndex& index);
+
+// The route of a tendon of the scene by the places of its nodes there.
+TendonRoute RouteIn(const Scene& scene, const SceneIndex& index, const Tendon& tendon);
 
 }  // namespace contact_path
 
