@@ -7,17 +7,12 @@
 #include <set>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "contact_path/tolerances.h"
 #include "structure/span_numbers.h"
 
 namespace contact_path {
 namespace {
 
 constexpr double kStraight = 1e-3;  // [rad]
-// What gives way by kRootOfRounding, contacts of bodies and slack pieces, leaves of forces, over kActive: eyes that
-// come to the edges of their cones at once do so by no less.
-constexpr double kSoft = 128.0;
-static_assert(kSoft * tolerances::kActive > tolerances::kRootOfRounding);
 
 LawDofs AllDofs(const TendonSpan& before, const TendonSpan& behind) {
   std::set<int> dofs;
@@ -41,7 +36,7 @@ TendonEye::TendonEye(const TendonSpan& before, const TendonSpan& behind, const C
   traits.dofs = AllDofs(before, behind);
   traits.couples = traits.compliant = traits.elastic = traits.curved = true;
   traits.largest_ratio = 1.0;
-  traits.force_unit = std::max(before.ForceUnit(), kSoft * std::min(before.ForceUnit(), 1.0));
+  traits.force_unit = before.ForceUnit();
   traits.largest_reach_rate = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k <= traits.dofs.size(); ++k) {
     traits.moves[kNormal][k] = true;
