@@ -14,6 +14,7 @@ std::string_view SentenceOf(WrapLimit::Kind kind) {
     case WrapLimit::Kind::kComesOff: return sentences::kComesOff;
     case WrapLimit::Kind::kHauled: return sentences::kHauled;
     case WrapLimit::Kind::kTurns: return sentences::kStringTurns;
+    case WrapLimit::Kind::kMeet: return sentences::kMeetsRoller;
   }
   return {};
 }
@@ -42,7 +43,7 @@ RollerEnds::RollerEnds(const Model& model) : num_dofs_(model.structure.NumDofs()
 double RollerEnds::Placed::Left(const Eigen::VectorXd& u, double s) const {
   const auto turned = [&](const WrapLimit::Turn& of) {
     const BarSpan& span = spans[static_cast<std::size_t>(&of - limit.turns.data())];
-    return span.rolled.Turned(span.rolled.Of(span.apart.At(u, s), 0.0).tangent);
+    return limit.MeasureOf(span.rolled, span.apart.At(u, s));
   };
   return limit.Left(turned, turn.dof >= 0 ? u[turn.dof] : turn.held + turn.rate * s);
 }

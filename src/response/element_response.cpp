@@ -17,14 +17,17 @@ Eigen::VectorXd ValuesOf(const Placed& placed, const Eigen::VectorXd& values) {
 }
 
 // Of the forces on the ends of a straight element.
-SectionForces SectionOf(const Element& element, const Eigen::VectorXd& x) {
+SectionForces SectionOf(const Element& element, bool is_tendon, const Eigen::VectorXd& x) {
   Eigen::VectorXd force(x.size());
   element.Force(x, force);
   Eigen::Vector2d begin, end, on_end;
   SectionForces section;
+  if (is_tendon) {  // the same all along
+    section.N = force.head<2>().norm();
+    return section;
+  }
   Eigen::Index i = 0;
   for (const LocalDof& local : element.Dofs()) {
-    if (local.node > 1) break;
     const bool is_end = local.node == 1;
     if (local.field == Field::kRotation) {
       (is_end ? section.M2 : section.M1) = is_end ? force[i] : -force[i];
@@ -33,10 +36,6 @@ SectionForces SectionOf(const Element& element, const Eigen::VectorXd& x) {
       if (is_end) on_end[local.component] = force[i];
     }
     ++i;
-  }
-  if (element.Dofs().back().node > 1) {  // a tendon: the same all along
-    section.N = force.head<2>().norm();
-    return section;
   }
   const Eigen::Vector2d chord = end - begin;
   if (const double length = chord.norm(); length > 0.0) {
@@ -67,8 +66,11 @@ ElementResponse::ElementResponse(const Scene& scaled, const SceneIndex& index, c
     }
   };
   place(MakeElements(slender, index, configuration.reference, OneSided::kElements), &sections_);
-  for (std::size_t k = 0; k < scaled.tendons.size(); ++k)
-    sections_[sections_.size() - scaled.tendons.size() + k].pieces = scaled.tendons[k].nodes.size() - 1;
+  for (std::size_t k = 0; k < scaled.tendons.size(); ++k) {
+    Placed& placed = sections_[sections_.size() - scaled.tendons.size() + k];
+    placed.is_tendon = true;
+    placed.pieces = scaled.tendons[k].nodes.size() - 1;
+  }
   for (const Solid& solid : scaled.solids)
     place(MakeSolidElements(solid, scaled, index, configuration.reference), &elements_);
 }
@@ -78,7 +80,7 @@ std::vector<SectionForces> ElementResponse::Sections(const Eigen::VectorXd& valu
   std::vector<SectionForces> sections;
   sections.reserve(sections_.size());
   for (const auto& placed : sections_) {
-    const SectionForces of = SectionOf(*placed.element, ValuesOf(placed, values));
+    const SectionForces of = SectionOf(*placed.element, placed.is_tendon, ValuesOf(placed, values));
     sections.insert(sections.end(), placed.pieces,
                     {force * of.N, force * of.Q, moment * of.M, moment * of.M1, moment * of.M2});
   }

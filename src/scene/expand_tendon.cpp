@@ -1,5 +1,6 @@
 #include "scene/expand_tendon.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -12,7 +13,8 @@ namespace contact_path {
 
 void ExpandTendon(std::size_t place, const std::unordered_map<std::string, std::size_t>& nodes, Scene* scene) {
   const Tendon tendon = scene->tendons[place];
-  if (FindRollerFault(tendon)) return;
+  const auto is_radius = [](double radius) { return radius >= 0.0 && std::isfinite(radius); };
+  if (FindRollerFault(tendon) || !std::all_of(tendon.radii.begin(), tendon.radii.end(), is_radius)) return;
   std::vector<Eigen::Vector2d> at;
   for (const std::string& node : tendon.nodes) {
     const auto known = nodes.find(node);

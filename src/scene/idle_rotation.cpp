@@ -23,6 +23,8 @@ std::unordered_set<std::string> TurnedNodes(const TraceRequest& request) {
   const auto moments = [&](const auto& loading) {
     for (const Load& load : loading.loads)
       if (load.moment != 0.0) turned.insert(load.node);
+    for (const SupportMotion& motion : loading.support_motions)
+      if (motion.rotation != 0.0) turned.insert(motion.node);
   };
   moments(scene);
   for (const Stage& stage : request.program) moments(stage);

@@ -125,7 +125,7 @@ class StructureRules {
       CheckTwoNodes(&checker_, nodes, element.nodes);
     } else if constexpr (std::is_same_v<Part, Tendon>) {
       CheckSpans(nodes, element.nodes, element.IsPiece());
-      CheckRollers(path, element);
+      if (sound) CheckRollers(path, element);
       if (element.friction > 0.0 && element.nodes.size() == 2)
         checker_.Add(path.Key("friction"), NumberText(element.friction), "must be 0 without a node between its ends");
     } else if constexpr (std::is_same_v<Part, Pin>) {
@@ -180,8 +180,6 @@ class StructureRules {
         return checker_.Add(path.Key("radii")[i + 1], NumberText(tendon.radii[i + 1]),
                             "must leave room for the string between the roller and the one before");
     }
-    if (tendon.pulley == Pulley::kFree && tendon.friction > 0.0)
-      checker_.Add(path.Key("friction"), NumberText(tendon.friction), "must be 0 where the pulleys turn freely");
   }
 
   void CheckPinned(const KeyPath& key, const Pin& pin) {

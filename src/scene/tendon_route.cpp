@@ -14,6 +14,13 @@ namespace {
 constexpr double kWholeTurn = 6.283185307179586;  // [rad]
 constexpr double kMostTurns = 100.0;
 constexpr double kNearlyHalf = 3.1;  // of a turn [rad]
+constexpr double kMeet = 1e-3;       // 1 - |delta| / |d| of a span of which too little is free
+
+bool Turns(const Node& body, const Scene& scene) {
+  return !body.fixed_rotation ||
+         std::any_of(scene.support_motions.begin(), scene.support_motions.end(),
+                     [&](const SupportMotion& motion) { return motion.node == body.name && motion.rotation != 0.0; });
+}
 
 // From 0 to a whole turn.
 double Positive(double angle) { return angle < 0.0 ? angle + kWholeTurn : angle; }
@@ -26,11 +33,14 @@ double SignedRadius(const Tendon& tendon, std::size_t node) {
 }
 
 std::optional<RollerFault> FindRollerFault(const Tendon& tendon) {
-  const std::size_t count = tendon.radii.empty() ? 0 : tendon.nodes.size();
+  const std::size_t count = tendon.radii.empty() && tendon.turns.empty() ? 0 : tendon.nodes.size();
   for (const auto& [name, list] : {std::pair("radii", &tendon.radii), std::pair("turns", &tendon.turns)})
     if (list->size() != count)
       return RollerFault{name, std::nullopt, std::to_string(list->size()) + " numbers",
                          "must have one for each node: " + std::to_string(count)};
+  if (tendon.pulley == Pulley::kFree && tendon.friction > 0.0)
+    return RollerFault{"friction", std::nullopt, NumberText(tendon.friction),
+                       "must be 0 where the pulleys turn freely"};
   for (std::size_t i = 0; i < count; ++i) {
     const double turns = tendon.turns[i];
     if (turns != std::round(turns) || std::abs(turns) > kMostTurns)
@@ -42,7 +52,7 @@ std::optional<RollerFault> FindRollerFault(const Tendon& tendon) {
 }
 
 bool SpanIsSound(const Tendon& tendon, std::size_t span, const Eigen::Vector2d& d) {
-  return d.norm() > std::abs(SignedRadius(tendon, span + 1) - SignedRadius(tendon, span));
+  return (1.0 - kMeet) * d.norm() > std::abs(SignedRadius(tendon, span + 1) - SignedRadius(tendon, span));
 }
 
 std::vector<Eigen::Vector2d> PointsOf(const std::vector<int>& nodes, const std::vector<double>& positions) {
@@ -120,14 +130,17 @@ std::vector<WrapLimit> WrapLimits(const Scene& scene, const SceneIndex& index) {
     const std::string name = TendonName(tendon, k);
     const std::size_t last = tendon.nodes.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
-      if (i < last && route.spans[i].Delta() != 0.0) {
+      if (i < last && (SignedRadius(tendon, i) != 0.0 || SignedRadius(tendon, i + 1) != 0.0)) {
         limits.push_back({WrapLimit::Kind::kTurns, name, kNearlyHalf, {{1.0, k, i}}});
         limits.back().both_senses = true;
       }
+      if (i < last && route.spans[i].Delta() != 0.0)
+        limits.push_back({WrapLimit::Kind::kMeet, name, 1.0 - kMeet, {{-std::abs(route.spans[i].Delta()), k, i}}});
       const double rho = SignedRadius(tendon, i), sense = rho > 0.0 ? 1.0 : -1.0;
       if (rho == 0.0) continue;
       const bool slides = i <= 1 && !tendon.slides[i].empty(), ends = i == 0 || i == last;
-      const std::string body = ends ? BodyOfDrum(tendon, i == 0 ? 0 : 1, scene, index) : std::string();
+      std::string body = ends ? BodyOfDrum(tendon, i == 0 ? 0 : 1, scene, index) : std::string();
+      if (!body.empty() && !Turns(scene.nodes[index.Node(body)], scene)) body.clear();
       if (slides && i == 0 && body.empty()) continue;  // the piece before has the whole angle
       WrapLimit limit{WrapLimit::Kind::kComesOff, name + " at " + tendon.nodes[i], route.wrapped[i], {}};
       if (i > 0) limit.turns.push_back({-sense, k, i - 1});

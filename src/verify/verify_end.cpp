@@ -65,17 +65,18 @@ bool FrictionIsGone(const TraceRequest& request, const Increment& last) {
 bool TendonComesOff(const TraceRequest& request, const Increment& last) {
   const Scene& scene = request.scene;
   const SceneIndex index(scene);
-  const auto turned = [&](const WrapLimit::Turn& turn) {
+  const auto measure = [&](const WrapLimit& limit, const WrapLimit::Turn& turn) {
     const Tendon& tendon = scene.tendons[turn.tendon];
     const RolledSpan span = RouteIn(scene, index, tendon).spans[turn.span];
     const std::vector<Eigen::Vector2d> ends = PointsOf({static_cast<int>(index.Node(tendon.nodes[turn.span])),
                                                         static_cast<int>(index.Node(tendon.nodes[turn.span + 1]))},
                                                        last.positions);
-    return span.Turned(span.Of(ends[1] - ends[0], 0.0).tangent);
+    return limit.MeasureOf(span, ends[1] - ends[0]);
   };
   const std::vector<WrapLimit> limits = WrapLimits(scene, index);
   return std::any_of(limits.begin(), limits.end(), [&](const WrapLimit& limit) {
-    return limit.Left(turned, limit.body.empty() ? 0.0 : last.rotations[index.Node(limit.body)]) <= kWrapped;
+    return limit.Left([&](const WrapLimit::Turn& turn) { return measure(limit, turn); },
+                      limit.body.empty() ? 0.0 : last.rotations[index.Node(limit.body)]) <= kWrapped;
   });
 }
 

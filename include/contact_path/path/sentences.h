@@ -74,7 +74,9 @@ inline constexpr Sentence kHauled =
     "tendon <name> has been hauled by the arc on one side of its roller: what a turn of the roller hauls beyond is not "
     "described";
 inline constexpr Sentence kStringTurns =
-    "tendon <name> has turned by nearly half a turn between two rollers: what it is wrapped by is not known beyond";
+    "tendon <name> has turned by nearly half a turn beside a roller: what it is wrapped by is not known beyond";
+inline constexpr Sentence kMeetsRoller =
+    "tendon <name> has next to nothing left between two rollers, or a node and one";
 
 // Steps and points that are refused.
 inline constexpr Sentence kNoIncrement = "no increment could be accepted, however short:";

@@ -56,6 +56,7 @@ class ElementResponse {
     std::unique_ptr<const Element> element;
     std::vector<int> components;  // by local dof: into the values
     std::size_t pieces = 1;       // from node to node, with the same forces
+    bool is_tendon = false;
   };
 
   Scaling scaling_;

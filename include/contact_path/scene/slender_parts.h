@@ -79,7 +79,8 @@ struct Tendon {
   double EA = 0.0;                 // [force], > 0
   double rest_length = 0.0;        // l0 [length]; 0 = l at the start
   double friction = 0.0;           // Coulomb's coefficient at each node but the first and the last
-  // Of round rollers about the nodes [length], 0: none; empty = none at all. A roller turns with the body of its node.
+  // Of round rollers about the nodes [length], 0: none; empty = none at all. Drums, at the ends, and rollers with
+  // friction turn with the body of their node.
   std::vector<double> radii = {};
   // By node, of a roller: > 0 where the string goes round it counterclockwise, < 0 clockwise; 1 and -1 between the ends
   // wrap less than a whole turn at the start, each one more is a turn more; at an end the turns wound at the start.

@@ -53,13 +53,14 @@ const std::string& BodyOfDrum(const Tendon& tendon, std::size_t end, const Scene
 double LengthOn(const TendonRoute& route, const std::vector<Eigen::Vector2d>& points,
                 const std::array<double, 2>& turned);
 
-// An angle that must stay > 0: start + the sum of factor times what a span has turned since the start, + of_body times
-// the turn of a body; where both senses count, start - |that sum|.
+// An angle, or a share, that must stay > 0: start + the sum of factor times what a span has turned since the start, +
+// of_body times the turn of a body; where both senses count, start - |that sum|.
 struct WrapLimit {
   enum class Kind {
     kComesOff,  // what a tendon is wrapped round a roller by, or wound on a drum
     kHauled,    // what is left between the middle of the arc at the start, carried by a roller that turns, and its end
-    kTurns,     // what is left to nearly half a turn of a span between unequal rollers
+    kTurns,     // what is left to nearly half a turn of a span beside a roller
+    kMeet,      // no angle: what is left of the free length of a span, 1 - |delta| / |d|, turned being 1 / |d|
   };
   struct Turn {
     double factor;
@@ -73,6 +74,10 @@ struct WrapLimit {
   std::string body = {};
   bool both_senses = false;
 
+  // What `turned` below is of a span that is d now: an angle, or 1 / |d|.
+  double MeasureOf(const RolledSpan& span, const Eigen::Vector2d& d) const {
+    return kind == Kind::kMeet ? 1.0 / d.norm() : span.Turned(span.Of(d, 0.0).tangent);
+  }
   // turned: of a turn's span. rotation: of the body.
   template <typename Turned>
   double Left(Turned turned, double rotation) const {
