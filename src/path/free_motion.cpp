@@ -165,7 +165,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
         model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece) > tolerances::kActive)
       continue;
     names.contacts.push_back(contact.Name());
-    if (contact.OnSurface()) continue;
+    if (contact.OnSurface() || contact.at_eye) continue;
     if (!Has(names.obstacles, contact.obstacle)) names.obstacles.push_back(contact.obstacle);
     // Not every node can slide on a rough obstacle.
     const ContactPair& pair = *model.contacts[i];

@@ -7,7 +7,8 @@
 namespace contact_path {
 
 // Fixes the rotation of each body on which no moment can act: a smooth disc, of circles about its reference point
-// without friction alone, in a scene where no friction changes. Nothing would determine it. The bodies of the request are nodes; contacts are expanded.
+// without friction alone, in a scene where no friction changes. Nothing would determine it. The bodies of the request
+// are nodes; contacts are expanded.
 void FixIdleRotations(TraceRequest* request);
 
 }  // namespace contact_path
