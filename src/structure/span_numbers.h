@@ -19,8 +19,8 @@ Number AsNumber(double value) {
     return Number(AsNumber<typename Number::Scalar>(value));
 }
 
-// Of a span from node to node, dx and dy apart (geometry/rolled_span.h): x, y, along what is free of it; turned,
-// theta - theta_0; length, f without the arcs at the start.
+// Of a span from node to node, dx and dy apart (geometry/rolled_span.h): x, y, along what is free of it; turned, beside
+// a roller theta - theta_0; length, f without the arcs at the start.
 template <typename Number>
 struct SpanNumbers {
   SpanNumbers(const RolledSpan& rolled, const Number& dx, const Number& dy) : x(dx), y(dy) {
@@ -34,8 +34,8 @@ struct SpanNumbers {
       x = Number(length * dx) + Number(delta * dy);
       y = Number(length * dy) - Number(delta * dx);
     }
+    if (rolled.Delta() == 0.0 && rolled.Arcs() == 0.0) return;  // between eyes: its turn is of no use
     const Eigen::Vector2d& start = rolled.StartDirection();
-    if (start == Eigen::Vector2d::Zero()) return;
     const Number start_x = AsNumber<Number>(start.x()), start_y = AsNumber<Number>(start.y());
     turned = atan2(Number(y * start_x - x * start_y), Number(x * start_x + y * start_y));
     if (rolled.Delta() != 0.0) length -= Number(delta * turned);
