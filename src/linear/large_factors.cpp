@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "contact_path/linear/large_system.h"
 #include "contact_path/linear/orderings.h"
 #include "contact_path/tolerances.h"
 #include "linear/ordering.h"
@@ -13,9 +14,7 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kMostChanged = 16;  // equations: more solutions than these take as long as a factorisation
-constexpr std::size_t kMostMoved = 32;    // of all matrices that one has served
-constexpr double kLeastCoupling = 1e-4;   // of the pivots of an update: it takes four digits at most
+constexpr std::size_t kMostMoved = 32;  // of all matrices that one has served
 
 // The first equation that lacks the unknown of its number: equations of equilibrium come first, and have it.
 Eigen::Index FirstWithoutDiagonal(const Eigen::SparseMatrix<double>& transposed) {

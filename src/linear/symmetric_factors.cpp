@@ -19,13 +19,11 @@ namespace contact_path {
 namespace {
 
 // Of scaled matrices, whose entries are 1 at most.
-constexpr double kMostGrowth = 1e6;   // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
-constexpr double kStiffened = 4.0;    // more than a negative stiffness
-constexpr double kLarge = 0.5;        // an entry of a constraint
-constexpr Eigen::Index kDense = 200;  // unknowns and constraints, of which eigenvalues are found as soon as by MUMPS
-constexpr std::size_t kMostChangedRows = 16;  // rows: more of them take as long as a factorisation
-constexpr double kLeastOfUpdate = 1e-4;       // of the pivots of an update: it takes four digits at most
-constexpr double kCompliance = -1e-9;         // of redundant constraints: entry of their diagonal
+constexpr double kMostGrowth = 1e6;    // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
+constexpr double kStiffened = 4.0;     // more than a negative stiffness
+constexpr double kLarge = 0.5;         // an entry of a constraint
+constexpr Eigen::Index kDense = 200;   // unknowns and constraints, of which eigenvalues are found as soon as by MUMPS
+constexpr double kCompliance = -1e-9;  // of redundant constraints: entry of their diagonal
 
 // The numbers of MUMPS' manual, which counts from 1.
 enum Communicator : int { kUseCommWorld = -987654 };
@@ -215,7 +213,7 @@ struct SymmetricFactors::Large {
       if (std::equal(matrix.valuePtr() + matrix.outerIndexPtr()[k], matrix.valuePtr() + matrix.outerIndexPtr()[k + 1],
                      last.valuePtr() + matrix.outerIndexPtr()[k]))
         continue;
-      if (changed.size() == kMostChangedRows) return false;
+      if (changed.size() == kMostChanged) return false;
       changed.push_back(k);
     }
     negative = Information(12);
@@ -235,7 +233,7 @@ struct SymmetricFactors::Large {
     const Eigen::MatrixXd G = AtChanged(moved);
     if (!G.allFinite()) return false;
     coupling.compute(Eigen::MatrixXd::Identity(count, count) + difference * G);
-    if (!(coupling.rcond() > kLeastOfUpdate)) return false;
+    if (!(coupling.rcond() > kLeastCoupling)) return false;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(difference);
     const Eigen::MatrixXd roots = of.eigenvectors() * of.eigenvalues().cwiseAbs().cwiseSqrt().asDiagonal();
     Eigen::MatrixXd condensed = -roots.transpose() * G * roots;

@@ -16,9 +16,9 @@ namespace {
 using Bytes = std::atomic<std::size_t>;
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kBatch{0.005};   // what one batch sends is sent in such a time
-constexpr Seconds kAsk{0.01};      // between two questions whether a call is to wait longer
-constexpr Seconds kPatience{1.0};  // with subscribers that do not read, once; machines that are busy stall for less
+constexpr Seconds kBatch{0.005};        // what one batch sends is sent in such a time
+constexpr Seconds kAsk{0.01};           // between two questions whether a call is to wait longer
+constexpr Seconds kPatience{1.0};       // with subscribers that do not read, once
 constexpr std::size_t kOverhead = 256;  // memory of an increment besides its text on the wire [bytes]
 
 // The increment as it is sent; it counts in `bytes` until the last subscriber has it.

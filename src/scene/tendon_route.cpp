@@ -11,7 +11,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kWholeTurn = 6.283185307179586;  // [rad]
 constexpr double kMostTurns = 100.0;
 constexpr double kNearlyHalf = 3.1;  // of a turn [rad]
 constexpr double kMeet = 1e-3;       // 1 - |delta| / |d| of a span of which too little is free
@@ -23,7 +22,7 @@ bool Turns(const Node& body, const Scene& scene) {
 }
 
 // From 0 to a whole turn.
-double Positive(double angle) { return angle < 0.0 ? angle + kWholeTurn : angle; }
+double Positive(double angle) { return angle < 0.0 ? angle + 2.0 * M_PI : angle; }
 
 }  // namespace
 
@@ -78,10 +77,10 @@ TendonRoute RouteOf(const Tendon& tendon, const std::vector<Eigen::Vector2d>& po
     if (tendon.IsPiece())
       angle = tendon.wrapped[i];
     else if (i == 0 || i == last)
-      angle = kWholeTurn * std::abs(tendon.turns[i]);
+      angle = 2.0 * M_PI * std::abs(tendon.turns[i]);
     else
       angle = Positive((rho > 0.0 ? 1.0 : -1.0) * bare[i - 1].Turned(bare[i].StartDirection())) +
-              kWholeTurn * (std::abs(tendon.turns[i]) - 1.0);
+              2.0 * M_PI * (std::abs(tendon.turns[i]) - 1.0);
   }
   // An arc is half that of the span before and half that of the span behind, at an end all that of its one span.
   const auto share = [&](std::size_t i) {

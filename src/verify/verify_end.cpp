@@ -10,13 +10,13 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/tendon_route.h"
+#include "contact_path/tolerances.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {
 namespace {
 
 constexpr double kFrictionLeft = 2e-6;  // of that at the load factor 0
-constexpr double kWrapped = 1e-8;       // angle that is nothing [rad]
 
 bool ProgramDone(const TraceRequest& request, const Increment& last) {
   return last.stage == static_cast<int>(request.program.size()) && AtTarget(request, last);
@@ -76,7 +76,7 @@ bool TendonComesOff(const TraceRequest& request, const Increment& last) {
   const std::vector<WrapLimit> limits = WrapLimits(scene, index);
   return std::any_of(limits.begin(), limits.end(), [&](const WrapLimit& limit) {
     return limit.Left([&](const WrapLimit::Turn& turn) { return measure(limit, turn); },
-                      limit.body.empty() ? 0.0 : last.rotations[index.Node(limit.body)]) <= kWrapped;
+                      limit.body.empty() ? 0.0 : last.rotations[index.Node(limit.body)]) <= tolerances::kRootOfRounding;
   });
 }
 

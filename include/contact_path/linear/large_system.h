@@ -3,6 +3,7 @@
 #define CONTACT_PATH_LINEAR_LARGE_SYSTEM_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 
 namespace contact_path {
 
@@ -10,6 +11,11 @@ namespace contact_path {
 // times as long at 10^4. Below, no solver but Ipopt calls the BLAS, whose kernels depend on the processor: a path by
 // method branch has the same bytes with all of them, its stability included.
 inline constexpr Eigen::Index kLargeSystem = 3000;
+
+// Factors serve a matrix that differs in so many equations at most: more solutions take as long as a factorisation. And
+// the smallest pivot of the update, of its largest, takes four digits at most.
+inline constexpr std::size_t kMostChanged = 16;
+inline constexpr double kLeastCoupling = 1e-4;
 
 }  // namespace contact_path
 
