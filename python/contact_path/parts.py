@@ -163,9 +163,10 @@ class Parts(Loading):
 
     @named
     def contact(self, *, node: str = '', group: str = '', obstacle: str = '', surface: str = '', friction: float = 0.0,
-                obstacles: Texts = ()) -> None:
+                obstacles: Texts = (), overlap: str = '') -> None:
         """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group. obstacles:
-        a circle that a body carries and what it rolls on, called CIRCLE@OBSTACLE. friction: coefficient [-]; with an obstacle, 0: its own."""
+        a circle that a body carries and what it rolls on, called CIRCLE@OBSTACLE. friction: coefficient [-]; with an obstacle, 0: its own.
+        overlap: refuse, or bring_on: an overlap at the start is taken back while constant loads are brought on."""
         self._add('contacts', locals())
 
     @named

@@ -20,6 +20,7 @@ namespace {
 constexpr double kFewCombinations = 8.0;         // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;           // numbers that may be held for that
 constexpr std::size_t kMostCondensedLaws = 512;  // of more, dense equations take longer than the sparse ones of all
+constexpr double kLeastShare = 1e-8, kNextShare = 1e-2;  // of the springs of a rate problem
 constexpr double kMostCombinations = 4096.0;     // 4^6
 constexpr double kMostIfNone = 65536.0;          // 4^8: tried before the path is said to end
 
@@ -54,16 +55,21 @@ bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, Br
     const bool unwanted = arrival.is_start && arrival.parameter.IsLoadFactor() &&
                           sense * arrival.direction[arrival.direction.size() - 1] < 0.0;
     if (unwanted) continue;
-    const std::vector<States> solutions = problem.Solve(sense);
     bool settled = false;
-    for (const States& solution : solutions) {
-      bool leads_on = finder->TryStates(solution, &result->branches, sense);
-      // Rates of zero hide some of the states: the leading signs lead to them.
-      const std::optional<States> others = leads_on ? std::nullopt : finder->PivotFrom(solution, sense, nullptr);
-      if (others && *others != solution) leads_on = finder->TryStates(*others, &result->branches, sense);
-      settled = settled || leads_on;
-      ++result->combinations;
-    }
+    const auto try_all = [&](const std::vector<States>& solutions) {
+      for (const States& solution : solutions) {
+        bool leads_on = finder->TryStates(solution, &result->branches, sense);
+        // Rates of zero hide some of the states: the leading signs lead to them.
+        const std::optional<States> others = leads_on ? std::nullopt : finder->PivotFrom(solution, sense, nullptr);
+        if (others && *others != solution) leads_on = finder->TryStates(*others, &result->branches, sense);
+        settled = settled || leads_on;
+        ++result->combinations;
+      }
+    };
+    try_all(problem.Solve(sense));
+    for (double share = 1.0; share >= kLeastShare && !settled && !problem.unique() && !finder->Cancelled();
+         share *= kNextShare)
+      try_all(problem.SolveByForces(sense, share));
     both = both && settled;
   }
   return both;

@@ -57,14 +57,11 @@ std::optional<Eigen::MatrixXd> Solved(const Eigen::MatrixXd& A, const Eigen::Mat
   return columns.asDiagonal() * even.solve(rows.asDiagonal() * B);
 }
 
-// When it is decided whether the motion of a port is given.
-enum Turn { kHeld, kAlone, kWithOther, kFree };
-
 }  // namespace
 
 RateComplementarity::RateComplementarity(const Laws& laws, const RateProblem& rates, const std::vector<Modes>& options,
                                          const std::vector<int>& weakly_active)
-    : laws_(laws), options_(options), weakly_active_(weakly_active) {
+    : laws_(laws), rates_(rates), options_(options), weakly_active_(weakly_active) {
   if (rates.regular() && FindPairs(rates)) Build(rates);
 }
 
@@ -241,12 +238,17 @@ void RateComplementarity::Build(const RateProblem& rates) {
             HasOneSolutionForEach(matrix_);
 }
 
+States RateComplementarity::AtBase() const {
+  States states;
+  for (const Modes& option : options_) states.push_back(option.front().state);
+  for (std::size_t k = 0; k < base_.size(); ++k) states[static_cast<std::size_t>(weakly_active_[k])] = base_[k];
+  return states;
+}
+
 std::vector<States> RateComplementarity::Solve(double load_sense) const {
   std::vector<States> solutions;
   for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_)) {
-    States& states = solutions.emplace_back();
-    for (const Modes& option : options_) states.push_back(option.front().state);
-    for (std::size_t k = 0; k < base_.size(); ++k) states[static_cast<std::size_t>(weakly_active_[k])] = base_[k];
+    States& states = solutions.emplace_back(AtBase());
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       int& state = states[static_cast<std::size_t>(weakly_active_[pairs_[p].law])];
       const bool moves = solution[p] == pairs_[p].motion_is_second;

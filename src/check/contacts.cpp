@@ -22,6 +22,15 @@ Vector Turned(const Vector& v, Real angle) {
 
 // An obstacle, which is turned about a point and then moved, both in proportion to the load factor; or which a body
 // carries.
+// What is taken back of an overlap at the start.
+struct BroughtOn {
+  explicit BroughtOn(const ContactCandidate& of) : at_0(of.overlap_at_0), rate(of.overlap_rate) {}
+
+  Real In(const PlacedState& state) const { return at_0 + rate * state.LoadFactor(); }
+
+  Real at_0, rate;
+};
+
 struct MovedObstacle {
   std::shared_ptr<const Surface> surface;
   Vector point;      // p of the scene
@@ -42,8 +51,10 @@ class ObstacleContact : public Contact {
  public:
   // slip_origin: of the total law of friction, as the obstacle sees it.
   // of_body: a body has the node, which it carries, or the obstacle. size: of coordinates.
-  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin, bool of_body, Real size)
+  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin, bool of_body, Real size,
+                  const BroughtOn& overlap)
       : Contact(node, obstacle.friction),
+        overlap_(overlap),
         obstacle_(std::move(obstacle)),
         slip_origin_(slip_origin),
         gives_(of_body),
@@ -56,9 +67,7 @@ class ObstacleContact : public Contact {
   bool SurelyOpen(const PlacedState& state) const override {
     return !Rolls() && obstacle_.surface->SurelyOpen(Position(state));
   }
-  Real Gap(const PlacedState& state) const override {
-    return obstacle_.surface->Gap(Position(state)) - obstacle_.radius;
-  }
+  Real Gap(const PlacedState& state) const override { return Distance(state) + overlap_.In(state); }
   // Where the obstacle is now.
   Vector Normal(const PlacedState& state) const override {
     const Vector normal = obstacle_.surface->Normal(Position(state));
@@ -112,11 +121,14 @@ class ObstacleContact : public Contact {
   // Along t, where contacts give way, over that where the gap is closed: what rt does work along is slip. sense: to
   // which side.
   Real SlipPerMotion(const PlacedState& state, Real sense) const {
-    const Real gap = Gap(state), step = sense * std::max(step_, std::abs(gap));
-    if (!gives_ || gap == 0.0L) return 1.0L;
+    const Real gap = Distance(state), step = sense * std::max(step_, std::abs(gap));
+    if ((!gives_ && overlap_.at_0 == 0.0L) || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
     const Vector along{step * n.y, -step * n.x};
     return obstacle_.surface->Slip(at, at + along) / obstacle_.surface->Slip(closed, closed + along);
+  }
+  Real Distance(const PlacedState& state) const {
+    return obstacle_.surface->Gap(Position(state)) - obstacle_.radius;
   }
   bool Rolls() const { return obstacle_.radius > 0.0L; }
   bool Turns() const { return obstacle_.body || obstacle_.turn != 0.0L; }
@@ -133,6 +145,7 @@ class ObstacleContact : public Contact {
   // differs from its limit by its square times the gap only.
   static constexpr Real kStep = 1e-5L;
 
+  BroughtOn overlap_;
   MovedObstacle obstacle_;
   std::optional<Vector> slip_origin_;
   bool gives_;
@@ -143,13 +156,17 @@ class BoundaryContact : public Contact {
  public:
   // left_out: patches of the surface, where the node is one of its own; empty: none.
   // first_node: of the surface.
-  BoundaryContact(std::size_t node, std::size_t surface, std::size_t first_node, Real friction,
+  BoundaryContact(std::size_t node, std::size_t surface, std::size_t first_node, const ContactCandidate& of,
                   std::vector<bool> left_out)
-      : Contact(node, friction), surface_(surface), first_node_(first_node), left_out_(std::move(left_out)) {}
+      : Contact(node, of.friction),
+        surface_(surface),
+        first_node_(first_node),
+        overlap_(of),
+        left_out_(std::move(left_out)) {}
 
   std::optional<std::size_t> TouchedSurface() const override { return surface_; }
   Real Gap(const PlacedState& state) const override {
-    return state.Shape(surface_).Gap(state.Place(Node()), FootIn(state));
+    return overlap_.In(state) + state.Shape(surface_).Gap(state.Place(Node()), FootIn(state));
   }
   Real GapPastEnd(const PlacedState& state) const override {
     const BoundaryFoot foot = FootIn(state);
@@ -197,6 +214,7 @@ class BoundaryContact : public Contact {
   }
 
   std::size_t surface_, first_node_;
+  BroughtOn overlap_;
   std::vector<bool> left_out_;
 };
 
@@ -289,7 +307,7 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     if (contact.OnSurface()) {
       const std::size_t surface = surfaces.at(contact.surface);
       contacts.push_back(std::make_unique<BoundaryContact>(
-          node, surface, numbers.at(scene.surfaces[surface].nodes.front()), contact.friction,
+          node, surface, numbers.at(scene.surfaces[surface].nodes.front()), contact,
           PatchesLeftOutFor(contact.node, scene.surfaces[surface], scene, numbers)));
       continue;
     }
@@ -311,7 +329,8 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     }
     partner.num_nodes = scene.nodes.size();
     const bool of_body = !contact.obstacles.empty() || partner.body.has_value() || IsAttached(scene.nodes[node]);
-    contacts.push_back(std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body, size));
+    contacts.push_back(std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body, size,
+                                                         BroughtOn(contact)));
   }
   return contacts;
 }

@@ -32,6 +32,8 @@ inline constexpr Real kStiffForce = 1e-4L;
 // Contacts of rigid bodies and pins in loops give way, so that reactions are unique: by this motion over L per force
 // over F.
 inline constexpr Real kGive = 1e-8L;
+// Force over F: the rounding of coordinates makes forces of 1e-9 of it where they give way so little.
+inline constexpr Real kForceOfGive = 1e-15L / kGive / 1e-9L;
 
 inline void RequireSize(const std::vector<double>& values, std::size_t size, const char* name) {
   if (values.size() == size) return;
@@ -105,6 +107,7 @@ struct ResidualCheck::Prepared {
       const std::optional<std::size_t> surface = contact->TouchedSurface();
       contact_units.push_back(surface ? std::max(units[contact->Node()], of_surfaces[*surface])
                                       : units[contact->Node()]);
+      if (contact->Gives()) contact_units.back() = std::max(contact_units.back(), check::kForceOfGive * scaling.force);
     }
   }
 

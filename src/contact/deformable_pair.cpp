@@ -119,7 +119,8 @@ struct DeformablePair::Columns {
 };
 
 DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
-                               const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds)
+                               const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds,
+                               const BroughtOn& overlap)
     : boundary_(std::move(boundary)), patches_(patches), node_(node) {
   Traits traits;
   traits.largest_ratio = friction;
@@ -128,8 +129,9 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
   traits.moves[kTangent].set();
   SurfaceTraits of_surface;
   of_surface.has_patches = of_surface.deformable = true;
+  of_surface.overlap = overlap;
   // The foot moves by no more than the largest motion of a control node.
-  traits.largest_reach_rate = std::sqrt(2.0);
+  traits.largest_reach_rate = std::sqrt(2.0) + std::abs(overlap.rate);
   if (force_bounds.size() > 0) {
     const auto bound_of = [&](const NodePlace& place) {
       double bound = 0.0;
@@ -164,6 +166,7 @@ void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, con
     knot_gradient[static_cast<Eigen::Index>(k)] = at.knot_gradient[k].value();
   }
   gap.gradient = columns.Gather(gap_gradient);
+  AddOverlap(s, &gap);
   xi.gradient = length * columns.Gather(knot_gradient);
   gap.hessian = columns.GatherRows([&](std::size_t k) { return at.gap_gradient[k].derivatives(); });
   xi.hessian = length * columns.GatherRows([&](std::size_t k) { return at.knot_gradient[k].derivatives(); });
@@ -172,12 +175,12 @@ void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, con
 }
 
 double DeformablePair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
-  return GapBeside(BoundaryAtPlaces(u), node_.At(u), KnownPatch(u, s, patch));
+  return OverlapAt(s) + GapBeside(BoundaryAtPlaces(u), node_.At(u), KnownPatch(u, s, patch));
 }
 
-NearestFoot DeformablePair::Nearest(const Eigen::VectorXd& u, double /*s*/) const {
+NearestFoot DeformablePair::Nearest(const Eigen::VectorXd& u, double s) const {
   NearestFoot nearest = BoundaryAtPlaces(u).Nearest(node_.At(u));
-  nearest.distance -= boundary_->Radius();
+  nearest.distance += OverlapAt(s) - boundary_->Radius();
   return nearest;
 }
 

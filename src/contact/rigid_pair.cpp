@@ -18,7 +18,7 @@ constexpr double kCoordinate = 1e-15;  // known to so much, scaled
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
                      const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin,
-                     double compliance, const Rolling& rolls, double friction_rate)
+                     double compliance, const Rolling& rolls, double friction_rate, const BroughtOn& overlap)
     : surface_(std::move(surface)),
       place_(std::move(place)),
       share_rate_(friction > 0.0 ? friction_rate / friction : 0.0) {
@@ -28,6 +28,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
   traits.curved = !surface_->Flat() || !place_.Affine() || share_rate_ != 0.0;
   traits.compliant = compliance > 0.0;
   of_surface.compliance = compliance;
+  of_surface.overlap = overlap;
   of_surface.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
   of_surface.seamless = surface_->Seamless();
   const XiRange range = surface_->Range();
@@ -44,20 +45,22 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
   if (traits.curved) {
     // The foot moves along the surface, where both components of the node have a share in gap and xi.
     for (Eigen::Index i = 0; i <= last; ++i) {
-      traits.moves[kNormal][static_cast<std::size_t>(i)] = place_.Moves(i);
+      traits.moves[kNormal][static_cast<std::size_t>(i)] = place_.Moves(i) || (i == last && overlap.rate != 0.0);
       traits.moves[kTangent][static_cast<std::size_t>(i)] = place_.Moves(i) || roll_[i] != 0.0;
     }
     // In a frame that turns: the farther from its origin, the faster.
     traits.largest_reach_rate =
-        place_.Affine() ? 1.0 + place_.ConstantGradient().col(last).norm() : std::numeric_limits<double>::infinity();
+        place_.Affine() ? 1.0 + place_.ConstantGradient().col(last).norm() + std::abs(overlap.rate)
+                        : std::numeric_limits<double>::infinity();
   } else {
     const Eigen::Vector2d held = place_.Constant();
     const Projection at_origin = surface_->Project(Eigen::Vector2d::Zero(), 0);
     const Eigen::Vector2d& n = at_origin.normal;
     const Eigen::Vector2d t = TangentOf(n);
-    gap_offset_ = n.x() * held.x() + n.y() * held.y() + at_origin.gap;
+    gap_offset_ = n.x() * held.x() + n.y() * held.y() + at_origin.gap + overlap.at_0;
     xi_offset_ = t.x() * held.x() + t.y() * held.y() + at_origin.xi;
     gap_gradient_ = place_.ConstantGradient().transpose() * n;
+    gap_gradient_[last] += overlap.rate;
     xi_gradient_ = place_.ConstantGradient().transpose() * t + roll_;
     for (Eigen::Index i = 0; i <= last; ++i) {
       traits.moves[kNormal][static_cast<std::size_t>(i)] = gap_gradient_[i] != 0.0;
@@ -107,6 +110,7 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const Po
   xi.motion = at.xi - reference[kTangent] + ports->Rate(roll_, u, s);
   gap.gradient = place.first.transpose() * at.normal;
   xi.gradient = place.first.transpose() * XiGradient(at) + roll_;
+  AddOverlap(s, &gap);
   gap.hessian = place.Hessian(at.normal, GapHessian(at));
   xi.hessian = place.Hessian(XiGradient(at), XiHessian(at));
   if (share_rate_ == 0.0) return;
@@ -121,9 +125,10 @@ Projection RigidPair::FootOf(const PlaceAt& place, const Eigen::VectorXd& u, dou
 double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
   if (!Curved()) return FlatGap(u, s);
   const Eigen::Vector2d x = place_.At(u, s);
-  if (patch != kNearestPatch || !HasPatches()) return GapBeside(*surface_, x, KnownPatch(u, s, patch));
+  if (patch != kNearestPatch || !HasPatches())
+    return OverlapAt(s) + GapBeside(*surface_, x, KnownPatch(u, s, patch));
   const NearestFoot nearest = NearestTo(x);
-  return nearest.is_end ? nearest.distance : surface_->Project(x, nearest.patch).gap;
+  return OverlapAt(s) + (nearest.is_end ? nearest.distance : surface_->Project(x, nearest.patch).gap);
 }
 
 NearestFoot RigidPair::NearestTo(const Eigen::Vector2d& x) const {
@@ -133,7 +138,10 @@ NearestFoot RigidPair::NearestTo(const Eigen::Vector2d& x) const {
 }
 
 NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
-  return HasPatches() ? NearestTo(place_.At(u, s)) : NearestFoot{0, Gap(u, s, 0), false};
+  if (!HasPatches()) return {0, Gap(u, s, 0), false};
+  NearestFoot nearest = NearestTo(place_.At(u, s));
+  nearest.distance += OverlapAt(s);
+  return nearest;
 }
 
 int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {

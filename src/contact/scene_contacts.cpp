@@ -93,13 +93,14 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
   ContactPairs contacts;
   for (const ContactCandidate& candidate : scene.contacts) {
     const auto node = static_cast<int>(index.Node(candidate.node));
+    const BroughtOn overlap = {candidate.overlap_at_0, candidate.overlap_rate};
     if (candidate.OnSurface()) {
       const BoundarySurface& surface = scene.surfaces[index.Surface(candidate.surface)];
       PlacedBoundary& on = boundaries[index.Surface(candidate.surface)];
       if (on.boundary == nullptr) on = MakeBoundary(surface, scene, index, structure);
-      contacts.push_back(std::make_unique<DeformablePair>(on.boundary,
-                                                          PatchesFor(candidate.node, surface, on.initial, on.across),
-                                                          PlaceOf(structure, node), candidate.friction, force_bounds));
+      contacts.push_back(std::make_unique<DeformablePair>(
+          on.boundary, PatchesFor(candidate.node, surface, on.initial, on.across), PlaceOf(structure, node),
+          candidate.friction, force_bounds, overlap));
       continue;
     }
     if (candidate.at_eye) {
@@ -139,7 +140,7 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     }
     contacts.push_back(std::make_unique<RigidPair>(
         std::move(surface), MovingPlace::SeenFrom(frame, point), can_slide ? candidate.FrictionWith(obstacle) : 0.0,
-        force_bounds, slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls, obstacles[at].friction_rate));
+        force_bounds, slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls, obstacles[at].friction_rate, overlap));
   }
   return contacts;
 }

@@ -232,7 +232,10 @@ Advance BranchMethod::Next(const PathPoint& from) {
   } else if (Causes hidden = HiddenSlip(model_, increment.point); !hidden.empty()) {
     advance.end = {EndReason::kNotDetermined, hidden};
   } else {
+    const Modes before = arc_.system().modes();
     advance.end = events_.Pass(*at, {increments_, at_start_}, &increment, &current_, &facts);
+    // What gives way in one mode need not in the next.
+    if (!SameStates(arc_.system().modes(), before)) stored_.reset();
   }
   increment.kind = facts.Kind();
   if (limit_.monitor() != nullptr) {

@@ -1,8 +1,11 @@
 #include "contact_path/path/preload.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/path/branch_method.h"
@@ -16,9 +19,19 @@ namespace {
 
 constexpr int kMostIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
+// By contact: what is to be taken back of an overlap at the start [scaled length].
+std::vector<double> OverlapsAt(const Model& model, const PathPoint& start) {
+  std::vector<double> overlaps;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const double gap = model.contacts[i]->Gap(start.u, start.s, start.modes[i].piece);
+    overlaps.push_back(model.scene.contacts[i].overlap == Overlap::kBringOn && gap < 0.0 ? -gap : 0.0);
+  }
+  return overlaps;
+}
+
 // The scene whose load factor, from 0 to 1, brings the constant loads on. holding: force of all parts at the start, by
 // dof, in scene units.
-Scene PreloadScene(const Model& model, const Eigen::VectorXd& holding) {
+Scene PreloadScene(const Model& model, const Eigen::VectorXd& holding, const std::vector<double>& overlaps) {
   Scene scene = model.scene;
   scene.loads.clear();
   scene.obstacle_motions.clear();
@@ -28,6 +41,10 @@ Scene PreloadScene(const Model& model, const Eigen::VectorXd& holding) {
       scene.loads.push_back(load);
       scene.loads.back().constant = false;
     }
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    scene.contacts[i].overlap_at_0 = model.scaling.length * overlaps[i];
+    scene.contacts[i].overlap_rate = -scene.contacts[i].overlap_at_0;
+  }
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const int dof_x = model.structure.Dof(static_cast<int>(i), 0), dof_y = model.structure.Dof(static_cast<int>(i), 1);
     const int dof_rotation = model.structure.Dofs().Dof(static_cast<int>(i), Field::kRotation, 0);
@@ -61,16 +78,19 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
                          (tolerances::kMargin * model.structure.ForceRounding().array()).max(tolerances::kRounding))
                             .any();
   const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
-  if (!stressed && constant <= 0.0) {
+  const std::vector<double> overlaps = OverlapsAt(model, preload.point);
+  const bool fits = std::any_of(overlaps.begin(), overlaps.end(), [](double overlap) { return overlap > 0.0; });
+  if (!stressed && !fits && constant <= 0.0) {
     preload.done = true;
     return preload;
   }
 
   if (!stressed) holding.setZero();
-  const Scene scene = PreloadScene(model, model.scaling.force * holding);
+  const Scene scene = PreloadScene(model, model.scaling.force * holding, overlaps);
   Scaling scaling = model.scaling;
   scaling.load_factor = LoadFactorScale(scene, model.index, scaling.length, scaling.force);
   const Model preload_model(scene, model.configuration, scaling);
+  preload.point = preload_model.InitialPoint();
   const double target = 1.0 / scaling.load_factor;
   const std::unique_ptr<PathMethod> method = make_method(preload_model, target);
   const auto end = [&preload](EndReason reason, const Causes& causes) {

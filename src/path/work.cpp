@@ -72,6 +72,7 @@ Work WorkOfStep(const Model& model, const FixedModeSystem& system, const Step& s
           step.Interpolate([&](const CurvePoint& at) { return system.MotionAlong(i, p, at.x, at.first, at.second); });
       const double taken = -state.ports[p].ratio * integrate(force, motion);
       work.friction += model.laws[i].Holonomic() ? taken : std::max(0.0, taken);
+      work.given_back += model.laws[i].Holonomic() ? 0.0 : std::max(0.0, -taken);
     }
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
@@ -82,6 +83,7 @@ Work WorkOfStep(const Model& model, const FixedModeSystem& system, const Step& s
   work.loads += integrate(step.Interpolate(driving), step.InterpolateLinear(load));
   const double unit = model.scaling.force * model.scaling.length;
   work.friction *= unit;
+  work.given_back *= unit;
   work.loads *= unit;
   return work;
 }

@@ -40,9 +40,6 @@ double RadiusToTheLeft(const Eigen::Vector2d& before, const Eigen::Vector2d& aft
 void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& contact, const Node& node,
                                  const BoundarySurface& surface, double length) {
   const Judged& judged = Judge(surface);
-  if (IsAttached(node))
-    return checker_.Add(path.Key("node"), node.name,
-                        "must not move with a body: nodes of bodies may touch obstacles, not surfaces");
   if (!judged.sound) return;
   const AdmissiblePatches patches = PatchesFor(node.name, surface, judged.places, judged.across);
   if (patches.None())
@@ -53,7 +50,7 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
     return checker_.Add(path.Key("node"), node.name,
                         "must be free to move, or a node of surface " + surface.name + " must be");
   const BoundaryCurve::Foot foot = judged.curve->Nearest({node.x, node.y}, patches);
-  if (length > 0.0 && !foot.is_end && foot.gap < -kWrittenRounding * length && !IsAway(node, surface, foot))
+  if (!foot.is_end && Refuses(contact, foot.gap, length) && !IsAway(node, surface, foot))
     checker_.Add(path, contact.Name(), "initial position penetrates the surface by " + NumberText(-foot.gap));
 }
 

@@ -91,7 +91,7 @@ void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& co
   const double free_part = std::hypot(node.fixed_x ? 0.0 : at.normal.x(), node.fixed_y ? 0.0 : at.normal.y());
   if (free_part <= kCancelled)
     checker_.Add(path.Key("node"), contact.node, "must be free to move along the normal of the obstacle");
-  if (length > 0.0 && at.gap < -kWrittenRounding * length)
+  if (Refuses(contact, at.gap, length))
     checker_.Add(path, contact.Name(),
                  "initial position penetrates the obstacle by " + NumberText(-at.gap) +
                      "; its normal points to the side where nodes may be");
@@ -102,7 +102,7 @@ void ContactRules::CheckRolling(const KeyPath& path, const ContactCandidate& con
   const double gap = MakeSurface(WhereCentresMove(obstacle, circle.radius))
                          ->ProjectOnNearest(Eigen::Vector2d(circle.px, circle.py))
                          .gap;
-  if (length > 0.0 && gap < -kWrittenRounding * length)
+  if (Refuses(contact, gap, length))
     checker_.Add(path, contact.Name(), "the circle penetrates the obstacle at the start by " + NumberText(-gap));
 }
 
@@ -114,7 +114,7 @@ void ContactRules::CheckOnCurve(const KeyPath& path, const ContactCandidate& con
   const Surface& surface = *surfaces_.at(&obstacle);
   const NearestFoot nearest = surface.Nearest(x);
   const double gap = surface.Project(x, nearest.patch).gap;
-  if (length > 0.0 && !nearest.is_end && gap < -kWrittenRounding * length)
+  if (!nearest.is_end && Refuses(contact, gap, length))
     checker_.Add(path, contact.Name(),
                  "initial position penetrates the obstacle by " + NumberText(-gap) +
                      (obstacle.shape == ObstacleShape::kCircle

@@ -220,7 +220,45 @@ Part OnNode(Part part) {
   return part;
 }
 
-ListPlaces ExpandContacts(const Groups& groups, Scene* scene) {
+// Nodes of bodies in parts that take no such nodes: nodes of their own in their places, pinned to them.
+class PinnedTwins {
+ public:
+  // scene: expanded; must outlive this.
+  explicit PinnedTwins(const Scene& scene) {
+    for (const Node& node : scene.nodes)
+      if (IsAttached(node)) attached_.emplace(node.name, node);
+  }
+
+  bool IsOfBody(const std::string& node) const { return attached_.count(node) > 0; }
+  std::string TwinOf(const std::string& node) {
+    if (std::find(twins_.begin(), twins_.end(), node) == twins_.end()) twins_.push_back(node);
+    return node + kTwin;
+  }
+  // Calls add(load) with the force on the twin, and the moment on the body.
+  template <typename Add>
+  void Move(const Load& load, Add&& add) {
+    const auto found = attached_.find(load.node);
+    if (found == attached_.end()) return add(load);
+    if (load.fx != 0.0 || load.fy != 0.0 || load.moment == 0.0)
+      add(Load{TwinOf(load.node), load.fx, load.fy, load.constant});
+    if (load.moment != 0.0) add(Load{found->second.body, 0.0, 0.0, load.constant, load.moment});
+  }
+  void AddTo(Scene* scene) const {
+    for (const std::string& name : twins_) {
+      const Node& at = attached_.at(name);
+      scene->nodes.push_back({name + kTwin, at.x, at.y});
+      scene->pins.push_back({{name + kTwin, name}, 0.0, 0.0, name + "_pinned"});
+    }
+  }
+
+ private:
+  static constexpr const char* kTwin = "/pinned";
+
+  std::unordered_map<std::string, Node> attached_;
+  std::vector<std::string> twins_;
+};
+
+ListPlaces ExpandContacts(const Groups& groups, PinnedTwins* twins, Scene* scene) {
   return ExpandList(&scene->contacts, [&](const ContactCandidate& contact, auto&& add) {
     const auto is_partner = [&](const Obstacle& of) { return of.name == contact.obstacles[1]; };
     if (const Obstacle* const circle = RollingCircle(contact, *scene);
@@ -233,17 +271,23 @@ ListPlaces ExpandContacts(const Groups& groups, Scene* scene) {
     }
     const BoundarySurface* const surface = groups.FindSurface(contact.surface);
     const bool all = groups.Find(contact.group) == nullptr || (surface != nullptr && groups.CanMove(*surface));
-    ForEachNode(contact, groups, [&](const ContactCandidate& on_node) {
-      if (all || groups.CanMove(on_node.node)) add(on_node);
+    ForEachNode(contact, groups, [&](ContactCandidate on_node) {
+      if (!all && !groups.CanMove(on_node.node)) return;
+      if (on_node.OnSurface() && twins->IsOfBody(on_node.node)) {
+        on_node.twin_of = on_node.node;
+        on_node.node = twins->TwinOf(on_node.node);
+      }
+      add(on_node);
     });
   });
 }
 
 // Scene or Stage.
 template <typename Loading>
-void ExpandLoading(const Groups& groups, Loading* loading, Expansion* expansion) {
-  expansion->loads.push_back(
-      ExpandList(&loading->loads, [&](const Load& load, auto&& add) { ExpandLoad(OnNode(load), groups, add); }));
+void ExpandLoading(const Groups& groups, PinnedTwins* twins, Loading* loading, Expansion* expansion) {
+  expansion->loads.push_back(ExpandList(&loading->loads, [&](const Load& load, auto&& add) {
+    ExpandLoad(OnNode(load), groups, [&](const Load& on_node) { twins->Move(on_node, add); });
+  }));
   expansion->motions.push_back(ExpandList(&loading->support_motions, [&](const SupportMotion& motion, auto&& add) {
     ForEachNode(OnNode(motion), groups, add);
   }));
@@ -411,9 +455,11 @@ Expansion Expand(const TraceRequest& request) {
   ExpandParts(&scene);
   FixNodes(&scene);
   const Groups groups(scene);
-  expansion.contacts = ExpandContacts(groups, &scene);
-  ExpandLoading(groups, &scene, &expansion);
-  for (Stage& stage : expansion.request.program) ExpandLoading(groups, &stage, &expansion);
+  PinnedTwins twins(scene);
+  expansion.contacts = ExpandContacts(groups, &twins, &scene);
+  ExpandLoading(groups, &twins, &scene, &expansion);
+  for (Stage& stage : expansion.request.program) ExpandLoading(groups, &twins, &stage, &expansion);
+  twins.AddTo(&scene);
   FixIdleRotations(&expansion.request);
   return expansion;
 }

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "contact_path/scene/scene.h"
+
 namespace contact_path {
 
 // Within these bounds no product or quotient that is formed of two inputs leaves the range of double.
@@ -17,6 +19,11 @@ constexpr double kCancelled = 1e-12;
 // What inputs may be off by because they were written with few digits, relative to the largest of them; a gap, to the
 // characteristic length. Far above rounding and far below anything meant, too.
 constexpr double kWrittenRounding = 1e-9;
+
+// Of a gap at the start, in a scene of this characteristic length; 0: not known.
+inline bool Refuses(const ContactCandidate& contact, double gap, double length) {
+  return contact.overlap == Overlap::kRefuse && length > 0.0 && gap < -kWrittenRounding * length;
+}
 
 // The most unknowns that may move the nodes of one tendon: kMostLawDofs (structure/local_vector.h).
 constexpr std::size_t kMostTendonUnknowns = 12;

@@ -56,11 +56,6 @@ void LoadingRules::CheckLoads(const KeyPath& where, std::size_t loading, const s
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const KeyPath path = list[checker_.LoadPlace(loading, i)];
     bool sound = checker_.CheckFields(path, loads[i]);
-    if (const Node* const node = checker_.KnownNode(loads[i].node); node != nullptr && IsAttached(*node)) {
-      checker_.Add(path.Key("node"), loads[i].node,
-                   "must not move with a body: a load acts on the reference point of body " + node->body);
-      sound = false;
-    }
     if (sound && loads[i].moment != 0.0 && !checker_.Turns(loads[i].node)) {
       checker_.Add(path.Key("moment"), NumberText(loads[i].moment), "must be 0: no beam turns node " + loads[i].node);
       sound = false;

@@ -162,6 +162,7 @@ double MotionNorm(const Scene& scene, double length = 1.0) {
     for (const double part : {motion.dx, motion.dy, motion.rotation * length}) squares.push_back(part * part);
   for (const ObstacleMotion& motion : scene.obstacle_motions)
     for (const double part : {motion.dx, motion.dy, motion.turn * length}) squares.push_back(part * part);
+  for (const ContactCandidate& contact : scene.contacts) squares.push_back(contact.overlap_rate * contact.overlap_rate);
   return std::sqrt(OrderedSum(std::move(squares)));
 }
 
@@ -284,6 +285,19 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
 
 }  // namespace
 
+namespace {
+
+// Of a boundary that is not straight on without end [length].
+double ExtentOf(const Obstacle& obstacle) {
+  double largest = 2.0 * obstacle.radius;
+  for (std::size_t i = 2; i + 1 < obstacle.points.size(); i += 2)
+    largest = std::max(largest, std::hypot(obstacle.points[i] - obstacle.points[0],
+                                           obstacle.points[i + 1] - obstacle.points[1]));
+  return largest;
+}
+
+}  // namespace
+
 bool HasForceScale(const Scene& scene) {
   return !scene.bars.empty() || !scene.beams.empty() || !scene.solids.empty() || !scene.tendons.empty();
 }
@@ -299,6 +313,8 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
     scaling.force = ForceOfElements(scene, index, tells ? scaled : 0.0, !tells || MotionNorm(scene) > 0.0);
   } else if (scene.superelements.empty()) {  // rigid bodies alone
     scaling.length = ExtentOfNodes(scene);
+    for (const Obstacle& obstacle : scene.obstacles)
+      if (!obstacle.body.empty()) scaling.length = std::max(scaling.length, ExtentOf(obstacle));
     // What the load factor scales has no end where springs tell of forces.
     const double spring = MeanSpring(scene) / scaling.length;
     scaling.force = std::max(spring > 0.0 ? spring : LoadNorm(scene, index, false, scaling.length),
@@ -338,6 +354,10 @@ Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
   scaled.loads = SumByNode(scene.loads);
   for (Solid& solid : scaled.solids) solid.thickness = solid.Thickness();  // 1 is of the unit of the scene
   ChangeUnits(&scaled, {scaling.length, scaling.force, scaling.load_factor});
+  for (ContactCandidate& contact : scaled.contacts) {
+    contact.overlap_at_0 /= scaling.length;
+    contact.overlap_rate *= scaling.load_factor / scaling.length;
+  }
   for (Obstacle& obstacle : scaled.obstacles) {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
     if (!(norm > 0.0)) continue;  // a shape without it

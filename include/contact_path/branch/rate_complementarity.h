@@ -36,8 +36,16 @@ class RateComplementarity {
   // For s' = load_sense: states by law, of those that are not weakly active the first option. Where the solution is not
   // unique, those that were found; there may be more.
   std::vector<States> Solve(double load_sense) const;
+  // The same where a share of the springs of the rate problem, > 0, holds the ports. The variables are forces, and for a
+  // contact without a reaction (Stewart & Trinkle 1996)
+  //   0 <= lambda - sign v_t, 0 <= the force against this slip; 0 <= mu r_n - both of these, 0 <= lambda
+  // Where all laws touch without a reaction the matrix is copositive, and a solution is found where Solve() ends on a
+  // ray.
+  std::vector<States> SolveByForces(double load_sense, double share) const;
 
  private:
+  // When it is decided whether the motion of a port is given.
+  enum Turn { kHeld, kAlone, kWithOther, kFree };
   // One of the pairs: the first variable as a function of all second ones. Directions are ports of the rate problem.
   struct Pair {
     std::size_t law;                // among the weakly active ones
@@ -55,7 +63,11 @@ class RateComplementarity {
   // Of motions v = A (r + v) + b s': which of them are given, and the forces follow; nothing: singular.
   std::optional<std::vector<bool>> GivenMotions(const Eigen::MatrixXd& A) const;
 
+  // Of the weakly active laws the base states.
+  States AtBase() const;
+
   const Laws& laws_;
+  const RateProblem& rates_;
   const std::vector<Modes>& options_;
   const std::vector<int>& weakly_active_;
   std::vector<int> base_;  // state, by weakly active law

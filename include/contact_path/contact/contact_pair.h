@@ -20,6 +20,12 @@ namespace contact_path {
 // In place of the patch of an open contact: the one that is nearest, which is looked for where it is needed.
 inline constexpr int kNearestPatch = std::numeric_limits<int>::min();
 
+// What is taken back of an overlap at the start as s grows: the gap is more than between the places by at_0 + rate s.
+struct BroughtOn {
+  double at_0 = 0.0;  // [length]
+  double rate = 0.0;
+};
+
 // Gap u_n and surface coordinate xi as functions of the unknowns that move the pair, its dofs, and of the load factor.
 // The columns of the matrix T of eq. (1) are their gradients: the force r_n grad u_n + r_t c grad xi acts on the
 // structure (contact/contact_limits.h). Slip is c dxi. Pieces of the law are patches of the surface, prolonged beyond
@@ -126,7 +132,14 @@ class ContactPair : public Law {
     bool deformable = false;
     double compliance = 0.0;    // of ports that are held: scaled motion per force
     bool tangent_gives = true;  // whether it is that of the tangential port, too
+    BroughtOn overlap;
   };
+  double OverlapAt(double s) const { return surface_traits_.overlap.at_0 + surface_traits_.overlap.rate * s; }
+  // Adds it to the gap and to its gradient.
+  void AddOverlap(double s, PortAt* gap) const {
+    gap->motion += OverlapAt(s);
+    gap->gradient[gap->gradient.size() - 1] += surface_traits_.overlap.rate;
+  }
   // Set once, by the constructor of the pair. traits.largest_ratio: mu.
   void SetContact(Traits traits, const SurfaceTraits& surface_traits);
 

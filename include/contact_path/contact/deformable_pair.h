@@ -19,7 +19,8 @@ class DeformablePair : public ContactPair {
   // patches: of the spline of the boundary; of a node of the boundary itself, the patches that it may touch.
   // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
   DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
-                 const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
+                 const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
+                 const BroughtOn& overlap = {});
 
   LawDofs Dofs(int patch) const override;
   void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,

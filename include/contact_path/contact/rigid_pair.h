@@ -35,7 +35,7 @@ class RigidPair : public ContactPair {
   RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
             const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
             const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt, double compliance = 0.0,
-            const Rolling& rolls = {}, double friction_rate = 0.0);
+            const Rolling& rolls = {}, double friction_rate = 0.0, const BroughtOn& overlap = {});
 
   void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
                 PortsAt* ports) const override;

@@ -153,6 +153,19 @@ constexpr auto Fields(Of<Obstacle>) {
       Member("fillets", &P::fillets).In(units::kLength).Within(Range::kZeroOrPositive));
 }
 
+// What is done about an overlap at the start.
+enum class Overlap {
+  kRefuse,
+  kBringOn,  // taken back from 1 to 0 while constant loads are brought on: a fit
+};
+
+template <>
+struct Words<Overlap> {
+  static constexpr Overlap kDefault = Overlap::kRefuse;
+  static constexpr std::pair<std::string_view, Overlap> kAll[] = {{"refuse", Overlap::kRefuse},
+                                                                  {"bring_on", Overlap::kBringOn}};
+};
+
 // A node that may touch an obstacle or a surface, or each node of a group; or a circle that a body carries, which rolls
 // or slides on another obstacle. The name of a candidate is "<node>@<obstacle>", "<node>@<surface>" or
 // "<circle>@<obstacle>".
@@ -163,16 +176,23 @@ struct ContactCandidate {
   std::string surface = {};                 // in place of obstacle
   double friction = 0.0;                    // Coulomb's coefficient; with an obstacle, <= 0: that of the obstacle
   std::vector<std::string> obstacles = {};  // in place of node and obstacle: the circle, and what it may touch
+  Overlap overlap = Overlap::kRefuse;
 
+  // While constant loads are brought on: the gap is more by overlap_at_0 + overlap_rate * load factor [length]. No
+  // fields.
+  double overlap_at_0 = 0.0;
+  double overlap_rate = 0.0;
   // In an expanded scene: the node is that of what has slid through an eye of a tendon, `obstacle` names the eye. No
   // field.
   bool at_eye = false;
+  // In an expanded scene: the node of a body to which the node is pinned. No field.
+  std::string twin_of = {};
 
   bool OnSurface() const { return !surface.empty(); }
   bool Rolls() const { return !obstacles.empty(); }
   double FrictionWith(const Obstacle& partner) const { return friction > 0.0 ? friction : partner.friction; }
   std::string Name() const {
-    return (Rolls() ? obstacles.front() : node) + "@" + (OnSurface() ? surface : Rolls() ? obstacles.back() : obstacle);
+    return (Rolls() ? obstacles.front() : twin_of.empty() ? node : twin_of) + "@" + (OnSurface() ? surface : Rolls() ? obstacles.back() : obstacle);
   }
 };
 
@@ -181,7 +201,7 @@ constexpr auto Fields(Of<ContactCandidate>) {
   return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
                     Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle).OrNone(), Member("group", &P::group),
                     Member("surface", &P::surface), Member("friction", &P::friction),
-                    Member("obstacles", &P::obstacles).Naming(TextKind::kObstacle));
+                    Member("obstacles", &P::obstacles).Naming(TextKind::kObstacle), Member("overlap", &P::overlap));
 }
 
 // Fixes a node besides what the node itself says, or each node of a group.

@@ -1,0 +1,256 @@
+// Loads on nodes of bodies, nodes of bodies against surfaces, fits, and single discs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/validate.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path::points_of_bodies_test {
+namespace {
+
+constexpr double kExact = 1e-8;
+
+Node NodeOf(const std::string& body, const std::string& name, double x, double y) {
+  Node node{name, x, y};
+  node.body = body;
+  return node;
+}
+
+Load LoadOn(const std::string& node, double fx, double fy, bool constant = false) {
+  Load load{node, fx, fy};
+  load.constant = constant;
+  return load;
+}
+
+// A rigid column of the length l on a hinge with a rotational spring k, pushed down at its top, and a little aside.
+TraceRequest Column(double l, double k, double aside) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "column";
+  RigidBody ground{"ground", 0.0, 0.0}, column{"column", 0.0, 0.5 * l};
+  ground.fixed_x = ground.fixed_y = ground.fixed_rotation = true;
+  scene.bodies = {ground, column};
+  scene.nodes = {NodeOf("ground", "below", 0.0, 0.0), NodeOf("column", "foot", 0.0, 0.0),
+                 NodeOf("column", "top", 0.0, l)};
+  scene.pins = {{{"below", "foot"}, k, 0.0, "hinge"}};
+  scene.loads = {LoadOn("top", aside, -1.0)};
+  request.options.stop = {
+      {"column.rotation", "<", -1.5}, {"column.rotation", ">", 1.5}, {"load_factor", ">", 3.0 * k / l}};
+  request.options.max_increments = 400;
+  return request;
+}
+
+// With a load that keeps its direction, buckling at P = k / l; with e P aside, P l (sin(t) + e cos(t)) = k t.
+TEST(PointsOfBodies, ALoadKeepsItsDirection) {
+  for (const double l : {0.02, 1.0, 30.0})
+    for (const double k : {1e-3, 2.0, 5e3})
+      for (const double aside : {0.0, 0.1}) {
+        SCOPED_TRACE(testing::Message() << l << ' ' << k << ' ' << aside);
+        const TracedPath path = TraceIncrements(Column(l, k, aside));
+        ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+        if (aside == 0.0) {
+          const std::vector<Increment> found = IncrementsOfKind(path, IncrementKind::kBifurcation);
+          ASSERT_GE(found.size(), 1u);
+          EXPECT_NEAR(found[0].load_factor * l / k, 1.0, kExact);
+          continue;
+        }
+        for (const Increment& increment : path.increments) {
+          const double t = std::asin(PositionX(path, increment, "top") / l);
+          EXPECT_NEAR(increment.load_factor * l * (std::sin(t) + aside * std::cos(t)), k * t, kExact * k);
+        }
+        ExpectNoFindings(path);
+      }
+}
+
+// A moment on a node of a body is one on the body.
+TEST(PointsOfBodies, AMomentIsOneOfTheBody) {
+  TraceRequest request = Column(1.0, 2.0, 0.0);
+  request.scene.loads = {Load{"top", 0.0, 0.0, false, 1.0}};
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const double x = PositionX(path, path.increments.back(), "top");
+  EXPECT_NEAR(std::sin(path.increments.back().load_factor / 2.0), -x, kExact);
+}
+
+// The weight of a beam that is clamped to a free body, on a spring: all of it.
+TEST(PointsOfBodies, TheWeightOfABeamOfABody) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "crane";
+  RigidBody carriage{"carriage", 0.0, 0.0};
+  carriage.fixed_x = carriage.fixed_rotation = true;
+  scene.bodies = {carriage};
+  scene.nodes = {NodeOf("carriage", "root", 0.1, 0.0), NodeOf("carriage", "back", 0.0, 0.0), {"tip", 1.1, 0.0},
+                 {"ceiling", 0.0, 1.0, true, true}};
+  scene.bars = {{{"back", "ceiling"}, 50.0}};
+  Beam arm;
+  arm.name = "arm";
+  arm.nodes = {"root", "tip"};
+  arm.EA = 1e4;
+  arm.EI = 1.0;
+  scene.beams = {arm};
+  Load weight;
+  weight.beam = "arm";
+  weight.by = -3.0;
+  scene.loads = {weight};
+  request.options.stop = {{"load_factor", ">", 1.0}};
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_NEAR(PositionY(path, path.increments.back(), "back"), -3.0 / 50.0, 1e-9);
+  ExpectNoFindings(path);
+}
+
+// A rigid punch with two corners on a soft block bears its load by both, in any units.
+TEST(PointsOfBodies, CornersPressOnASurface) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "punch";
+  for (int j = 0; j <= 2; ++j)
+    for (int i = 0; i <= 8; ++i)
+      scene.nodes.push_back({"n" + std::to_string(i) + "_" + std::to_string(j), 0.25 * i, 0.25 * j, j == 0, j == 0});
+  scene.materials = {{}};
+  scene.materials[0].name = "rubber";
+  scene.materials[0].E = 1.0;
+  scene.materials[0].nu = 0.3;
+  Solid block;
+  block.name = "block";
+  block.material = "rubber";
+  block.nodes_per_element = 4;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 8; ++i)
+      for (const auto& [a, b] : {std::pair(i, j), std::pair(i + 1, j), std::pair(i + 1, j + 1), std::pair(i, j + 1)})
+        block.nodes.push_back("n" + std::to_string(a) + "_" + std::to_string(b));
+  scene.solids = {block};
+  BoundarySurface top;
+  top.name = "top";
+  for (int i = 0; i <= 8; ++i) top.nodes.push_back("n" + std::to_string(i) + "_2");
+  scene.surfaces = {top};
+  scene.bodies = {{"punch", 1.05, 0.8}};
+  scene.nodes.push_back(NodeOf("punch", "l", 0.6, 0.5));
+  scene.nodes.push_back(NodeOf("punch", "r", 1.5, 0.5));
+  for (const char* corner : {"l", "r"}) {
+    ContactCandidate contact;
+    contact.node = corner;
+    contact.surface = "top";
+    contact.friction = 0.3;
+    scene.contacts.push_back(contact);
+  }
+  Load push;
+  push.body = "punch";
+  push.fy = -1.0;
+  scene.loads = {push};
+  request.options.stop = {{"load_factor", ">", 0.05}};
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const Increment& last = path.increments.back();
+  EXPECT_NEAR(Contact(path, last, "l@top").rn + Contact(path, last, "r@top").rn, last.load_factor, 1e-3);
+  EXPECT_GT(Contact(path, last, "l@top").rn, 0.01);
+  EXPECT_GT(Contact(path, last, "r@top").rn, 0.01);
+  ExpectNoFindings(path);
+  const TracedPath other = UndoUnits(TraceIncrements(ChangeUnits(request, 10.0, 0.1)), 10.0, 0.1);
+  ExpectSameEvents(other, path, 1e-7);
+}
+
+// A rigid plug, wider than the place between two springs by 2 d, is pulled out at 2 mu N.
+TraceRequest PressFit(double d, double friction) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "press_fit";
+  scene.bodies = {{"plug", 0.0, 0.5}};
+  scene.nodes = {{"l", -1.0, 0.5, false, true},   {"r", 1.0, 0.5, false, true},
+                 {"lw", -2.0, 0.5, true, true},   {"rw", 2.0, 0.5, true, true},
+                 NodeOf("plug", "head", 0.0, 0.9)};
+  scene.bars = {{{"lw", "l"}, 10.0}, {{"rw", "r"}, 10.0}};
+  Obstacle left, right;
+  left.name = "left";
+  right.name = "right";
+  left.shape = right.shape = ObstacleShape::kPolyline;
+  left.points = {-1.0 - d, -2.0, -1.0 - d, 3.0};
+  right.points = {1.0 + d, 3.0, 1.0 + d, -2.0};
+  left.body = right.body = "plug";
+  left.friction = right.friction = friction;
+  scene.obstacles = {left, right};
+  scene.contacts = {{"l", "left"}, {"r", "right"}};
+  scene.loads = {LoadOn("head", 0.0, 1.0)};
+  request.options.at_limit = AtLimit::kStop;
+  return request;
+}
+
+TEST(PointsOfBodies, APressFitIsPulledOut) {
+  for (const double d : {1e-6, 0.02, 0.2})
+    for (const double friction : {0.1, 0.6}) {
+      SCOPED_TRACE(testing::Message() << d << ' ' << friction);
+      TraceRequest request = PressFit(d, friction);
+      EXPECT_NE(Validate(request).size(), 0u);  // an overlap that nobody has spoken of
+      for (ContactCandidate& contact : request.scene.contacts) contact.overlap = Overlap::kBringOn;
+      const TracedPath path = TraceIncrements(request);
+      ASSERT_FALSE(path.increments.empty()) << path.result.message;
+      const double N = 10.0 * d;
+      EXPECT_NEAR(Contact(path, path.increments[0], "l@left").rn, N, kExact * (1.0 + N));
+      EXPECT_NEAR(Contact(path, path.increments[0], "l@left").gap, 0.0, 2.0 * kExact * N);
+      EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, 2.0 * friction * N, 2.0 * kExact * (1.0 + N));
+      ExpectNoFindings(path);
+    }
+}
+
+// A disc of the weight W and the radius R in a right angle turns at M = mu sqrt(2) / (1 + mu^2) W R.
+TEST(PointsOfBodies, ADiscTurnsInARightAngle) {
+  for (const double radius : {1e-3, 1.0, 200.0})
+    for (const double friction : {0.1, 0.3, 0.8}) {
+      SCOPED_TRACE(testing::Message() << radius << ' ' << friction);
+      const double y = std::sqrt(2.0) * radius;
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "in_a_right_angle";
+      scene.bodies = {{"disc", 0.0, y}};
+      Obstacle rim;
+      rim.name = "rim";
+      rim.shape = ObstacleShape::kCircle;
+      rim.py = y;
+      rim.radius = radius;
+      rim.body = "disc";
+      scene.obstacles = {rim,
+                         {"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 1.0, friction},
+                         {"right", ObstacleShape::kHalfPlane, 0.0, 0.0, -1.0, 1.0, friction}};
+      for (const char* on : {"left", "right"}) {
+        ContactCandidate contact;
+        contact.obstacles = {"rim", on};
+        scene.contacts.push_back(contact);
+      }
+      Load weight, moment;
+      weight.body = moment.body = "disc";
+      weight.fy = -1.0;
+      weight.constant = true;
+      moment.moment = radius;
+      scene.loads = {weight, moment};
+      request.options.at_limit = AtLimit::kStop;
+      const TracedPath path = TraceIncrements(request);
+      ASSERT_FALSE(path.increments.empty()) << path.result.message;
+      EXPECT_NEAR(path.increments.back().load_factor, friction * std::sqrt(2.0) / (1.0 + friction * friction),
+                  5.0 * kExact)
+          << path.result.message;
+      ExpectNoFindings(path);
+    }
+}
+
+// Contacts of discs that open and slide within what they give way by: the energies balance from step to step.
+TEST(PointsOfBodies, DiscsInABinWhoseWallMovesOut) {
+  for (const char* name : {"discs_in_a_bin", "more_discs_in_a_bin"}) {
+    SCOPED_TRACE(name);
+    const TracedPath path =
+        TraceIncrements(ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml"));
+    EXPECT_TRUE(path.result.reached) << path.result.message;
+    EXPECT_GT(path.increments.back().load_factor, 0.1);
+    ExpectNoFindings(path);
+  }
+}
+
+}  // namespace
+}  // namespace contact_path::points_of_bodies_test
