@@ -176,7 +176,7 @@ class Parts(Loading):
         self._add('pins', locals())
 
     @named
-    def tendon(self, name: str, *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0, friction: float = 0.0,
+    def tendon(self, name: str = '', *, nodes: Texts = (), EA: float = 0.0, rest_length: float = 0.0, friction: float = 0.0,
                radii: Numbers = (), turns: Numbers = (), pulley: str = '') -> None:
         """A string through nodes, along which it slides: stiffness EA [force], rest_length [length], 0: its length at the start. It
         bears tension alone. friction: Coulomb's coefficient at the nodes between its ends, where the tensions before and behind differ by

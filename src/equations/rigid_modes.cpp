@@ -21,23 +21,24 @@ class RowSpace {
     for (Eigen::Index j = 0; j < r_.cols(); ++j) {
       if (row[j] == 0.0) continue;
       const double a = r_(j, j), b = row[j], norm = std::hypot(a, b), c = a / norm, s = b / norm;
-      const Eigen::RowVectorXd above = r_.row(j);
-      r_.row(j) = c * above + s * row;
-      row = c * row - s * above;
+      const Eigen::Index rest = r_.cols() - j;  // before, both are zero
+      const Eigen::RowVectorXd above = r_.row(j).tail(rest);
+      r_.row(j).tail(rest) = c * above + s * row.tail(rest);
+      row.tail(rest) = c * row.tail(rest) - s * above;
       row[j] = 0.0;
     }
   }
 
   // Orthonormal; directions that change a row by less than tolerances::kDependentColumn of the largest are in it.
   Eigen::MatrixXd NullSpace() const {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(r_.transpose());
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Eigen::MatrixXd(r_.transpose()));
     qr.setThreshold(tolerances::kDependentColumn);
     const Eigen::MatrixXd q = qr.householderQ();
     return q.rightCols(r_.cols() - qr.rank());
   }
 
  private:
-  Eigen::MatrixXd r_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> r_;
 };
 
 // Of each component, the part that it belongs to: the smallest number of a component of the part.

@@ -200,6 +200,50 @@ TEST(PointsOfBodies, APressFitIsPulledOut) {
     }
 }
 
+// A ring of beams that is put on a peg, larger by d of the radius: what all of it presses with is 2 pi EA d.
+TEST(PointsOfBodies, ARingIsPutOnAPeg) {
+  for (const double EA : {100.0, 1e5})
+    for (const double d : {1e-4, 0.05}) {
+      SCOPED_TRACE(testing::Message() << EA << ' ' << d);
+      constexpr int kBeams = 24;
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "ring_on_a_peg";
+      const auto name = [](int i) { return "n" + std::to_string(i % kBeams); };
+      for (int i = 0; i < kBeams; ++i) {
+        const double angle = 2.0 * M_PI * i / kBeams;
+        scene.nodes.push_back({name(i), std::cos(angle), std::sin(angle)});
+        Beam beam;
+        beam.name = "arc" + std::to_string(i);
+        beam.nodes = {name(i), name(i + 1)};
+        beam.EA = EA;
+        beam.EI = 1e-3 * EA;
+        beam.segments = 2;
+        beam.angle = 2.0 * M_PI / kBeams;
+        scene.beams.push_back(beam);
+        ContactCandidate contact;
+        contact.obstacle = "peg";
+        contact.overlap = Overlap::kBringOn;
+        for (const std::string& node : {name(i), beam.name + "/1"}) {
+          contact.node = node;
+          scene.contacts.push_back(contact);
+        }
+      }
+      Obstacle peg;
+      peg.name = "peg";
+      peg.shape = ObstacleShape::kCircle;
+      peg.radius = 1.0 + d;
+      peg.friction = 0.2;
+      scene.obstacles = {peg};
+      scene.loads = {LoadOn("n0", 0.0, 1.0)};
+      request.options.max_increments = 3;
+      const TracedPath path = TraceIncrements(request);
+      ASSERT_FALSE(path.increments.empty()) << path.result.message;
+      EXPECT_NEAR(SumOfNormals(path.increments[0]) / (2.0 * M_PI * EA * d), 1.0, 2e-3);
+      ExpectNoFindings(path);
+    }
+}
+
 // A disc of the weight W and the radius R in a right angle turns at M = mu sqrt(2) / (1 + mu^2) W R.
 TEST(PointsOfBodies, ADiscTurnsInARightAngle) {
   for (const double radius : {1e-3, 1.0, 200.0})
@@ -242,7 +286,7 @@ TEST(PointsOfBodies, ADiscTurnsInARightAngle) {
 
 // Contacts of discs that open and slide within what they give way by: the energies balance from step to step.
 TEST(PointsOfBodies, DiscsInABinWhoseWallMovesOut) {
-  for (const char* name : {"discs_in_a_bin", "more_discs_in_a_bin"}) {
+  for (const char* name : {"five_discs_in_a_bin", "discs_in_a_bin", "more_discs_in_a_bin"}) {
     SCOPED_TRACE(name);
     const TracedPath path =
         TraceIncrements(ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml"));

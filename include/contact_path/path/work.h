@@ -12,9 +12,9 @@ namespace contact_path {
 // In scene units [force length].
 struct Work {
   double friction = 0.0;  // against friction: dissipated, >= 0; by the total law given back, < 0, on the way back
+  double loads = 0.0;     // of all loads, constant and scaled, and of moving supports and obstacles
   // By contacts that slide and give way by more than they slide, >= 0: part of the balance of a step.
   double given_back = 0.0;
-  double loads = 0.0;     // of all loads, constant and scaled, and of moving supports and obstacles
 };
 
 // From `from` to `to` by the trapezoidal rule: second order in the increment. A contact that slips in the state of `to`
