@@ -21,8 +21,8 @@ constexpr double kFewCombinations = 8.0;         // not worth condensing the rat
 constexpr double kMostCondensed = 5e7;           // numbers that may be held for that
 constexpr std::size_t kMostCondensedLaws = 512;  // of more, dense equations take longer than the sparse ones of all
 constexpr double kLeastShare = 1e-8, kNextShare = 1e-2;  // of the springs of a rate problem
-constexpr double kMostCombinations = 4096.0;     // 4^6
-constexpr double kMostIfNone = 65536.0;          // 4^8: tried before the path is said to end
+constexpr double kMostCombinations = 4096.0;             // 4^6
+constexpr double kMostIfNone = 65536.0;                  // 4^8: tried before the path is said to end
 
 using Options = BranchFinder::Options;
 

@@ -76,8 +76,7 @@ std::vector<States> RateComplementarity::SolveByForces(double load_sense, double
     States& states = found.emplace_back(AtBase());
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       int& state = states[static_cast<std::size_t>(weakly_active_[pairs_[p].law])];
-      const bool beyond =
-          slip_of[p] >= 0 ? basic[static_cast<std::size_t>(slip_of[p])] && basic[p] : !basic[p];
+      const bool beyond = slip_of[p] >= 0 ? basic[static_cast<std::size_t>(slip_of[p])] && basic[p] : !basic[p];
       if (beyond && state == base_[pairs_[p].law]) state = pairs_[p].next;
     }
   }

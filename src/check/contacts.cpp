@@ -26,7 +26,9 @@ Vector Turned(const Vector& v, Real angle) {
 struct BroughtOn {
   explicit BroughtOn(const ContactCandidate& of) : at_0(of.overlap_at_0), rate(of.overlap_rate) {}
 
-  Real In(const PlacedState& state) const { return at_0 + rate * state.LoadFactor(); }
+  Real GapIn(const PlacedState& state, Real distance) const {
+    return at_0 == 0.0L ? distance : distance + at_0 + rate * state.LoadFactor();
+  }
 
   Real at_0, rate;
 };
@@ -67,7 +69,7 @@ class ObstacleContact : public Contact {
   bool SurelyOpen(const PlacedState& state) const override {
     return !Rolls() && obstacle_.surface->SurelyOpen(Position(state));
   }
-  Real Gap(const PlacedState& state) const override { return Distance(state) + overlap_.In(state); }
+  Real Gap(const PlacedState& state) const override { return overlap_.GapIn(state, Distance(state)); }
   // Where the obstacle is now.
   Vector Normal(const PlacedState& state) const override {
     const Vector normal = obstacle_.surface->Normal(Position(state));
@@ -127,9 +129,7 @@ class ObstacleContact : public Contact {
     const Vector along{step * n.y, -step * n.x};
     return obstacle_.surface->Slip(at, at + along) / obstacle_.surface->Slip(closed, closed + along);
   }
-  Real Distance(const PlacedState& state) const {
-    return obstacle_.surface->Gap(Position(state)) - obstacle_.radius;
-  }
+  Real Distance(const PlacedState& state) const { return obstacle_.surface->Gap(Position(state)) - obstacle_.radius; }
   bool Rolls() const { return obstacle_.radius > 0.0L; }
   bool Turns() const { return obstacle_.body || obstacle_.turn != 0.0L; }
   // The node as the obstacle sees it.
@@ -166,7 +166,7 @@ class BoundaryContact : public Contact {
 
   std::optional<std::size_t> TouchedSurface() const override { return surface_; }
   Real Gap(const PlacedState& state) const override {
-    return overlap_.In(state) + state.Shape(surface_).Gap(state.Place(Node()), FootIn(state));
+    return overlap_.GapIn(state, state.Shape(surface_).Gap(state.Place(Node()), FootIn(state)));
   }
   Real GapPastEnd(const PlacedState& state) const override {
     const BoundaryFoot foot = FootIn(state);
@@ -306,9 +306,9 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     const std::size_t node = numbers.at(contact.node);
     if (contact.OnSurface()) {
       const std::size_t surface = surfaces.at(contact.surface);
-      contacts.push_back(std::make_unique<BoundaryContact>(
-          node, surface, numbers.at(scene.surfaces[surface].nodes.front()), contact,
-          PatchesLeftOutFor(contact.node, scene.surfaces[surface], scene, numbers)));
+      contacts.push_back(
+          std::make_unique<BoundaryContact>(node, surface, numbers.at(scene.surfaces[surface].nodes.front()), contact,
+                                            PatchesLeftOutFor(contact.node, scene.surfaces[surface], scene, numbers)));
       continue;
     }
     if (contact.at_eye) {
@@ -329,8 +329,8 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     }
     partner.num_nodes = scene.nodes.size();
     const bool of_body = !contact.obstacles.empty() || partner.body.has_value() || IsAttached(scene.nodes[node]);
-    contacts.push_back(std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body, size,
-                                                         BroughtOn(contact)));
+    contacts.push_back(
+        std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body, size, BroughtOn(contact)));
   }
   return contacts;
 }

@@ -166,7 +166,7 @@ void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, con
     knot_gradient[static_cast<Eigen::Index>(k)] = at.knot_gradient[k].value();
   }
   gap.gradient = columns.Gather(gap_gradient);
-  AddOverlap(s, &gap);
+  ToGap(s, &gap);
   xi.gradient = length * columns.Gather(knot_gradient);
   gap.hessian = columns.GatherRows([&](std::size_t k) { return at.gap_gradient[k].derivatives(); });
   xi.hessian = length * columns.GatherRows([&](std::size_t k) { return at.knot_gradient[k].derivatives(); });
@@ -175,12 +175,12 @@ void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, con
 }
 
 double DeformablePair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
-  return OverlapAt(s) + GapBeside(BoundaryAtPlaces(u), node_.At(u), KnownPatch(u, s, patch));
+  return GapAt(s, GapBeside(BoundaryAtPlaces(u), node_.At(u), KnownPatch(u, s, patch)));
 }
 
 NearestFoot DeformablePair::Nearest(const Eigen::VectorXd& u, double s) const {
   NearestFoot nearest = BoundaryAtPlaces(u).Nearest(node_.At(u));
-  nearest.distance += OverlapAt(s) - boundary_->Radius();
+  nearest.distance = GapAt(s, nearest.distance - boundary_->Radius());
   return nearest;
 }
 

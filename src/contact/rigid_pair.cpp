@@ -49,9 +49,9 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
       traits.moves[kTangent][static_cast<std::size_t>(i)] = place_.Moves(i) || roll_[i] != 0.0;
     }
     // In a frame that turns: the farther from its origin, the faster.
-    traits.largest_reach_rate =
-        place_.Affine() ? 1.0 + place_.ConstantGradient().col(last).norm() + std::abs(overlap.rate)
-                        : std::numeric_limits<double>::infinity();
+    traits.largest_reach_rate = place_.Affine()
+                                    ? 1.0 + place_.ConstantGradient().col(last).norm() + std::abs(overlap.rate)
+                                    : std::numeric_limits<double>::infinity();
   } else {
     const Eigen::Vector2d held = place_.Constant();
     const Projection at_origin = surface_->Project(Eigen::Vector2d::Zero(), 0);
@@ -110,7 +110,7 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const Po
   xi.motion = at.xi - reference[kTangent] + ports->Rate(roll_, u, s);
   gap.gradient = place.first.transpose() * at.normal;
   xi.gradient = place.first.transpose() * XiGradient(at) + roll_;
-  AddOverlap(s, &gap);
+  ToGap(s, &gap);
   gap.hessian = place.Hessian(at.normal, GapHessian(at));
   xi.hessian = place.Hessian(XiGradient(at), XiHessian(at));
   if (share_rate_ == 0.0) return;
@@ -125,10 +125,9 @@ Projection RigidPair::FootOf(const PlaceAt& place, const Eigen::VectorXd& u, dou
 double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
   if (!Curved()) return FlatGap(u, s);
   const Eigen::Vector2d x = place_.At(u, s);
-  if (patch != kNearestPatch || !HasPatches())
-    return OverlapAt(s) + GapBeside(*surface_, x, KnownPatch(u, s, patch));
+  if (patch != kNearestPatch || !HasPatches()) return GapAt(s, GapBeside(*surface_, x, KnownPatch(u, s, patch)));
   const NearestFoot nearest = NearestTo(x);
-  return OverlapAt(s) + (nearest.is_end ? nearest.distance : surface_->Project(x, nearest.patch).gap);
+  return GapAt(s, nearest.is_end ? nearest.distance : surface_->Project(x, nearest.patch).gap);
 }
 
 NearestFoot RigidPair::NearestTo(const Eigen::Vector2d& x) const {
@@ -140,7 +139,7 @@ NearestFoot RigidPair::NearestTo(const Eigen::Vector2d& x) const {
 NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
   if (!HasPatches()) return {0, Gap(u, s, 0), false};
   NearestFoot nearest = NearestTo(place_.At(u, s));
-  nearest.distance += OverlapAt(s);
+  nearest.distance = GapAt(s, nearest.distance);
   return nearest;
 }
 

@@ -98,9 +98,9 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       const BoundarySurface& surface = scene.surfaces[index.Surface(candidate.surface)];
       PlacedBoundary& on = boundaries[index.Surface(candidate.surface)];
       if (on.boundary == nullptr) on = MakeBoundary(surface, scene, index, structure);
-      contacts.push_back(std::make_unique<DeformablePair>(
-          on.boundary, PatchesFor(candidate.node, surface, on.initial, on.across), PlaceOf(structure, node),
-          candidate.friction, force_bounds, overlap));
+      contacts.push_back(
+          std::make_unique<DeformablePair>(on.boundary, PatchesFor(candidate.node, surface, on.initial, on.across),
+                                           PlaceOf(structure, node), candidate.friction, force_bounds, overlap));
       continue;
     }
     if (candidate.at_eye) {
@@ -138,9 +138,10 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       rolls = {circle->radius, point.frame.angle, frame.angle};
       surface = MakeSurface(WhereCentresMove(obstacle, circle->radius));
     }
-    contacts.push_back(std::make_unique<RigidPair>(
-        std::move(surface), MovingPlace::SeenFrom(frame, point), can_slide ? candidate.FrictionWith(obstacle) : 0.0,
-        force_bounds, slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls, obstacles[at].friction_rate, overlap));
+    contacts.push_back(std::make_unique<RigidPair>(std::move(surface), MovingPlace::SeenFrom(frame, point),
+                                                   can_slide ? candidate.FrictionWith(obstacle) : 0.0, force_bounds,
+                                                   slip_origin, of_body ? tolerances::kRootOfRounding : 0.0, rolls,
+                                                   obstacles[at].friction_rate, overlap));
   }
   return contacts;
 }

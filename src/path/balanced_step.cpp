@@ -46,8 +46,8 @@ bool Balance(const Model& model, const FixedModeSystem& system, std::optional<do
   step->stored = stored_at(of.end.x);
   const double change = step->stored - before;
   const double taken = step->work.friction - step->work.given_back;
-  const double exchanged = std::abs(step->work.loads) + step->work.given_back + std::abs(step->work.friction) +
-                           std::abs(change);
+  const double exchanged =
+      std::abs(step->work.loads) + step->work.given_back + std::abs(step->work.friction) + std::abs(change);
   return std::abs(step->work.loads - taken - change) <=
          tolerances::kEnergyOfStep * exchanged + tolerances::kEqual * (before + unit);
 }

@@ -291,8 +291,8 @@ namespace {
 double ExtentOf(const Obstacle& obstacle) {
   double largest = 2.0 * obstacle.radius;
   for (std::size_t i = 2; i + 1 < obstacle.points.size(); i += 2)
-    largest = std::max(largest, std::hypot(obstacle.points[i] - obstacle.points[0],
-                                           obstacle.points[i + 1] - obstacle.points[1]));
+    largest = std::max(
+        largest, std::hypot(obstacle.points[i] - obstacle.points[0], obstacle.points[i + 1] - obstacle.points[1]));
   return largest;
 }
 

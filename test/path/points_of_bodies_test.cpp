@@ -87,7 +87,9 @@ TEST(PointsOfBodies, TheWeightOfABeamOfABody) {
   RigidBody carriage{"carriage", 0.0, 0.0};
   carriage.fixed_x = carriage.fixed_rotation = true;
   scene.bodies = {carriage};
-  scene.nodes = {NodeOf("carriage", "root", 0.1, 0.0), NodeOf("carriage", "back", 0.0, 0.0), {"tip", 1.1, 0.0},
+  scene.nodes = {NodeOf("carriage", "root", 0.1, 0.0),
+                 NodeOf("carriage", "back", 0.0, 0.0),
+                 {"tip", 1.1, 0.0},
                  {"ceiling", 0.0, 1.0, true, true}};
   scene.bars = {{{"back", "ceiling"}, 50.0}};
   Beam arm;
@@ -164,8 +166,10 @@ TraceRequest PressFit(double d, double friction) {
   Scene& scene = request.scene;
   scene.name = "press_fit";
   scene.bodies = {{"plug", 0.0, 0.5}};
-  scene.nodes = {{"l", -1.0, 0.5, false, true},   {"r", 1.0, 0.5, false, true},
-                 {"lw", -2.0, 0.5, true, true},   {"rw", 2.0, 0.5, true, true},
+  scene.nodes = {{"l", -1.0, 0.5, false, true},
+                 {"r", 1.0, 0.5, false, true},
+                 {"lw", -2.0, 0.5, true, true},
+                 {"rw", 2.0, 0.5, true, true},
                  NodeOf("plug", "head", 0.0, 0.9)};
   scene.bars = {{{"lw", "l"}, 10.0}, {{"rw", "r"}, 10.0}};
   Obstacle left, right;

@@ -36,8 +36,8 @@ class RateComplementarity {
   // For s' = load_sense: states by law, of those that are not weakly active the first option. Where the solution is not
   // unique, those that were found; there may be more.
   std::vector<States> Solve(double load_sense) const;
-  // The same where a share of the springs of the rate problem, > 0, holds the ports. The variables are forces, and for a
-  // contact without a reaction (Stewart & Trinkle 1996)
+  // The same where a share of the springs of the rate problem, > 0, holds the ports. The variables are forces, and for
+  // a contact without a reaction (Stewart & Trinkle 1996)
   //   0 <= lambda - sign v_t, 0 <= the force against this slip; 0 <= mu r_n - both of these, 0 <= lambda
   // Where all laws touch without a reaction the matrix is copositive, and a solution is found where Solve() ends on a
   // ray.

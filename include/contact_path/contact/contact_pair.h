@@ -134,11 +134,15 @@ class ContactPair : public Law {
     bool tangent_gives = true;  // whether it is that of the tangential port, too
     BroughtOn overlap;
   };
-  double OverlapAt(double s) const { return surface_traits_.overlap.at_0 + surface_traits_.overlap.rate * s; }
-  // Adds it to the gap and to its gradient.
-  void AddOverlap(double s, PortAt* gap) const {
-    gap->motion += OverlapAt(s);
-    gap->gradient[gap->gradient.size() - 1] += surface_traits_.overlap.rate;
+  // Of a distance from the surface.
+  double GapAt(double s, double distance) const {
+    const BroughtOn& overlap = surface_traits_.overlap;
+    return overlap.at_0 == 0.0 ? distance : distance + overlap.at_0 + overlap.rate * s;
+  }
+  // Takes a distance and its gradient to the gap.
+  void ToGap(double s, PortAt* distance) const {
+    distance->motion = GapAt(s, distance->motion);
+    distance->gradient[distance->gradient.size() - 1] += surface_traits_.overlap.rate;
   }
   // Set once, by the constructor of the pair. traits.largest_ratio: mu.
   void SetContact(Traits traits, const SurfaceTraits& surface_traits);

@@ -192,7 +192,8 @@ struct ContactCandidate {
   bool Rolls() const { return !obstacles.empty(); }
   double FrictionWith(const Obstacle& partner) const { return friction > 0.0 ? friction : partner.friction; }
   std::string Name() const {
-    return (Rolls() ? obstacles.front() : twin_of.empty() ? node : twin_of) + "@" + (OnSurface() ? surface : Rolls() ? obstacles.back() : obstacle);
+    const std::string& of = twin_of.empty() ? node : twin_of;
+    return (Rolls() ? obstacles.front() : of) + "@" + (OnSurface() ? surface : Rolls() ? obstacles.back() : obstacle);
   }
 };
 
