@@ -143,17 +143,22 @@ std::string Joined(const std::vector<std::string>& parts) {
 Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
   double smallest = tolerances::kSmallShare;
   Causes found;
-  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
-    const std::vector<std::string>& ends = scene.bars[i].nodes;
-    if (scene.bars[i].sense == BarSense::kTension) continue;
-    const std::size_t a = index.Node(ends[0]), b = index.Node(ends[1]);
+  const auto look = [&](const std::string& first, const std::string& second, sentences::Sentence sentence,
+                        const std::string& part) {
+    const std::size_t a = index.Node(first), b = index.Node(second);
     const double length = std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
     const double initial = std::hypot(scene.nodes[b].x - scene.nodes[a].x, scene.nodes[b].y - scene.nodes[a].y);
-    if (!(length < smallest * initial)) continue;
+    if (!(length < smallest * initial)) return;
     smallest = length / initial;
-    const std::string name = std::to_string(i) + " (" + ends[0] + ", " + ends[1] + ")";
-    found = {{sentences::kCollapsedBar, name, smallest}};
-  }
+    found = {{sentence, part + " (" + first + ", " + second + ")", smallest}};
+  };
+  for (std::size_t i = 0; i < scene.bars.size(); ++i)
+    if (const Bar& bar = scene.bars[i]; bar.sense != BarSense::kTension)
+      look(bar.nodes[0], bar.nodes[1], sentences::kCollapsedBar, std::to_string(i));
+  for (std::size_t i = 0; i < scene.tendons.size(); ++i)
+    if (const Tendon& tendon = scene.tendons[i]; tendon.radii.empty())
+      for (std::size_t k = 0; k + 1 < tendon.nodes.size(); ++k)
+        look(tendon.nodes[k], tendon.nodes[k + 1], sentences::kCollapsedSpan, TendonName(tendon, i));
   return found;
 }
 

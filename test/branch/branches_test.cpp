@@ -356,8 +356,8 @@ std::vector<VectorXd> BranchesWithRisingLoad(const LinearProblem& problem) {
 }
 
 // More contacts than are enumerated at once: what is found is admissible, and something is found where there is a
-// branch. Where pivoting finds none, as among very rough contacts, all combinations are tried before the path is said
-// to end.
+// branch, among very rough contacts, too, where the rates in motions may have no solution that is found: those in
+// forces have one, and no list needs all combinations.
 TEST(FindBranches, ManyCoupledContacts) {
   Random random(3);
   int found = 0, missed = 0, enumerated = 0;
@@ -389,7 +389,7 @@ TEST(FindBranches, ManyCoupledContacts) {
     }
   }
   EXPECT_GE(found, 8);
-  EXPECT_GE(enumerated, 1);
+  EXPECT_EQ(enumerated, 0);
   EXPECT_EQ(missed, 0);
 }
 

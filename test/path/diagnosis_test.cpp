@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/path/trace.h"
+#include "support/traced_path.h"
+
 namespace contact_path::diagnosis_test {
 namespace {
 
@@ -27,6 +30,24 @@ std::string Collapsed(const std::vector<double>& positions) {
 TEST(CollapsedBar, NamesTheOneThatHasShrunkMost) {
   EXPECT_EQ(Collapsed({0.0, 0.0, 0.015, 0.0, 0.015, 1e-3}), "bar 1 (b, c) has shrunk to 0.001 of its initial length");
   EXPECT_EQ(Collapsed({0.0, 0.0, 0.0, 1e-7, 0.0, 1e-3}), "bar 0 (a, b) has shrunk to 5e-08 of its initial length");
+}
+
+TEST(CollapsedBar, NamesTheSpanOfATendon) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "pulled_together";
+  scene.nodes = {{"a", -1.0, 0.0}, {"b", 1.0, 0.0}, {"c", 3.0, 0.0, true, true}, {"d", -3.0, 0.0, true, true}};
+  scene.superelements = {{{"a"}, {1.0, 0.0, 0.0, 1.0}}, {{"b"}, {1.0, 0.0, 0.0, 1.0}}};
+  scene.tendons.resize(1);
+  scene.tendons[0].name = "cord";
+  scene.tendons[0].nodes = {"d", "a", "b", "c"};
+  scene.tendons[0].EA = 10.0;
+  scene.loads = {{"a", 1.0, 0.0}, {"b", -1.0, 0.0}};
+  request.options.stop = {{"load_factor", ">", 10.0}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_FALSE(path.result.reached);
+  EXPECT_NE(path.result.message.find("what tendon cord (a, b) has between two nodes has shrunk to "), std::string::npos)
+      << path.result.message;
 }
 
 TEST(CollapsedBar, SaysNothingOfLongOnes) { EXPECT_EQ(Collapsed({0.0, 0.0, 0.1, 0.0, 0.1, 0.1}), ""); }

@@ -120,6 +120,8 @@ inline constexpr Sentence kBarRateSign = "the sign of the rate with which bar <n
 
 // What explains an end.
 inline constexpr Sentence kCollapsedBar = "bar <name> has shrunk to <value> of its initial length";
+inline constexpr Sentence kCollapsedSpan =
+    "what tendon <name> has between two nodes has shrunk to <value> of its initial length";
 inline constexpr Sentence kInvertedElement =
     "element <name> turns inside out: its area has shrunk to <value> of the initial one";
 inline constexpr Sentence kLockingSolids =
