@@ -265,7 +265,7 @@ Causes BranchMethod::Remarks() const {
 End BranchMethod::NoStep(const PathPoint& from) {
   const double moved = arc_.MovedByRounding(current_.x, current_.first.head(arc_.NumMotion()));
   const double length = model_.scaling.length;
-  const Causes collapsed = CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions);
+  const Causes collapsed = CollapsedPart(model_.scene, model_.index, model_.InSceneUnits(from).positions);
   End end = {EndReason::kStepTooSmall, {{sentences::kNoIncrement}, {sentences::kNewtonLeavesBranch}}};
   if (collapsed.empty() && moved > options_.smallest_step)
     end = {EndReason::kNotDetermined, {{sentences::kMotionSign, {}, options_.smallest_step * length, moved * length}}};

@@ -140,7 +140,7 @@ std::string Joined(const std::vector<std::string>& parts) {
 
 }  // namespace
 
-Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
+Causes CollapsedPart(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
   double smallest = tolerances::kSmallShare;
   Causes found;
   const auto look = [&](const std::string& first, const std::string& second, sentences::Sentence sentence,

@@ -24,15 +24,15 @@ Scene TwoBars() {
 
 std::string Collapsed(const std::vector<double>& positions) {
   const Scene scene = TwoBars();
-  return EndText(CollapsedBar(scene, SceneIndex(scene), positions));
+  return EndText(CollapsedPart(scene, SceneIndex(scene), positions));
 }
 
-TEST(CollapsedBar, NamesTheOneThatHasShrunkMost) {
+TEST(CollapsedPart, NamesTheOneThatHasShrunkMost) {
   EXPECT_EQ(Collapsed({0.0, 0.0, 0.015, 0.0, 0.015, 1e-3}), "bar 1 (b, c) has shrunk to 0.001 of its initial length");
   EXPECT_EQ(Collapsed({0.0, 0.0, 0.0, 1e-7, 0.0, 1e-3}), "bar 0 (a, b) has shrunk to 5e-08 of its initial length");
 }
 
-TEST(CollapsedBar, NamesTheSpanOfATendon) {
+TEST(CollapsedPart, NamesTheSpanOfATendon) {
   TraceRequest request;
   Scene& scene = request.scene;
   scene.name = "pulled_together";
@@ -50,7 +50,7 @@ TEST(CollapsedBar, NamesTheSpanOfATendon) {
       << path.result.message;
 }
 
-TEST(CollapsedBar, SaysNothingOfLongOnes) { EXPECT_EQ(Collapsed({0.0, 0.0, 0.1, 0.0, 0.1, 0.1}), ""); }
+TEST(CollapsedPart, SaysNothingOfLongOnes) { EXPECT_EQ(Collapsed({0.0, 0.0, 0.1, 0.0, 0.1, 0.1}), ""); }
 
 // A soft bar with a contact and a stiff one without: F = 1e4.
 TEST(ContactTooSoft, NamesTheContact) {

@@ -39,8 +39,8 @@ class RateComplementarity {
   // The same where a share of the springs of the rate problem, > 0, holds the ports. The variables are forces, and for
   // a contact without a reaction (Stewart & Trinkle 1996)
   //   0 <= lambda - sign v_t, 0 <= the force against this slip; 0 <= mu r_n - both of these, 0 <= lambda
-  // Where all laws touch without a reaction the matrix is copositive, and a solution is found where Solve() ends on a
-  // ray.
+  // Where all laws touch without a reaction and the other forces have symmetric derivatives, the matrix is copositive,
+  // and Lemke's method does not end on a ray but by rounding.
   std::vector<States> SolveByForces(double load_sense, double share) const;
 
  private:

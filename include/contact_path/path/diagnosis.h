@@ -12,9 +12,10 @@
 
 namespace contact_path {
 
-// Names the bar that has shrunk most if that is nearly to nothing, where its force has no direction; else empty.
+// Names the bar, or what a tendon has between two nodes without rollers, that has shrunk most if that is nearly to
+// nothing, where its force has no direction; else empty.
 // index: of the scene. positions: current x0, y0, x1, ..., 2 x nodes [length].
-Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
+Causes CollapsedPart(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
 
 // Where numbers end a path and an element of a solid has next to no area left at one of its integration points, it
 // turns inside out: that is why. point: where no increment leads on, scaled.
