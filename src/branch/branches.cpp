@@ -8,6 +8,7 @@
 #include <set>
 
 #include "branch/branch_finder.h"
+#include "branch/rates_by_forces.h"
 #include "contact_path/branch/branch_order.h"
 #include "contact_path/branch/force_redistribution.h"
 #include "contact_path/branch/rate_complementarity.h"
@@ -20,9 +21,11 @@ namespace {
 constexpr double kFewCombinations = 8.0;         // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;           // numbers that may be held for that
 constexpr std::size_t kMostCondensedLaws = 512;  // of more, dense equations take longer than the sparse ones of all
-constexpr double kLeastShare = 1e-8, kNextShare = 1e-2;  // of the springs of a rate problem
-constexpr double kMostCombinations = 4096.0;             // 4^6
-constexpr double kMostIfNone = 65536.0;                  // 4^8: tried before the path is said to end
+constexpr std::size_t kMostBothWays = 64;        // of laws whose solutions are not unique
+// Shares of the springs of a rate problem: those that nearly stand for the contacts, then ever softer ones.
+constexpr double kMostShare = 1e6, kLeastShare = 1e-8, kNextShare = 0.1;
+constexpr double kMostCombinations = 4096.0;  // 4^6
+constexpr double kMostIfNone = 65536.0;       // 4^8: tried before the path is said to end
 
 using Options = BranchFinder::Options;
 
@@ -46,9 +49,15 @@ void TryAll(const Options& options, const std::function<bool(const Modes&)>& exc
   }
 }
 
-// The solutions of the complementarity problem of the rates, for both senses of the load. Whether they settle both: a
+// What there is to find the rates as solutions of complementarity problems.
+struct RateSolvers {
+  const RateComplementarity* condensed = nullptr;
+  const RatesByForces* by_forces = nullptr;
+};
+
+// The solutions of the complementarity problems of the rates, for both senses of the load. Whether they settle both: a
 // direction leads on, or is the branch of arrival; at a start the sense that is not wanted settles itself.
-bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, BranchFinder* finder, BranchSet* result) {
+bool TrySolutions(const RateSolvers& solvers, const Arrival& arrival, BranchFinder* finder, BranchSet* result) {
   bool both = true;
   for (const double sense : {1.0, -1.0}) {
     if (finder->Cancelled()) return true;
@@ -56,20 +65,23 @@ bool TrySolutions(const RateComplementarity& problem, const Arrival& arrival, Br
                           sense * arrival.direction[arrival.direction.size() - 1] < 0.0;
     if (unwanted) continue;
     bool settled = false;
-    const auto try_all = [&](const std::vector<States>& solutions) {
-      for (const States& solution : solutions) {
-        bool leads_on = finder->TryStates(solution, &result->branches, sense);
-        // Rates of zero hide some of the states: the leading signs lead to them.
-        const std::optional<States> others = leads_on ? std::nullopt : finder->PivotFrom(solution, sense, nullptr);
-        if (others && *others != solution) leads_on = finder->TryStates(*others, &result->branches, sense);
-        settled = settled || leads_on;
-        ++result->combinations;
-      }
+    const auto try_out = [&](const States& solution) {
+      bool leads_on = finder->TryStates(solution, &result->branches, sense);
+      // Rates of zero hide some of the states: the leading signs lead to them.
+      const std::optional<States> others = leads_on ? std::nullopt : finder->PivotFrom(solution, sense, nullptr);
+      if (others && *others != solution) leads_on = finder->TryStates(*others, &result->branches, sense);
+      settled = settled || leads_on;
+      ++result->combinations;
     };
-    try_all(problem.Solve(sense));
-    for (double share = 1.0; share >= kLeastShare && !settled && !problem.unique() && !finder->Cancelled();
-         share *= kNextShare)
-      try_all(problem.SolveByForces(sense, share));
+    if (solvers.condensed != nullptr)
+      for (const States& solution : solvers.condensed->Solve(sense)) try_out(solution);
+    ComplementaritySolution near;
+    for (double share = kMostShare;
+         share >= kLeastShare && !settled && solvers.by_forces != nullptr && !finder->Cancelled();
+         share *= kNextShare) {
+      const std::optional<States> solution = solvers.by_forces->Solve(sense, share, &near);
+      if (solution && share <= 1.0) try_out(*solution);
+    }
     both = both && settled;
   }
   return both;
@@ -132,8 +144,11 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
-  const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedLaws && !arrival.singular &&
-                         entries <= kMostCondensed;
+  const bool solves = combinations > few && !arrival.singular;
+  std::optional<RatePairs> pairs;
+  if (solves && !between_pieces) pairs.emplace(laws, options, weakly_active);
+  const std::size_t most = pairs && pairs->BothWays() ? kMostBothWays : kMostCondensedLaws;
+  const bool condenses = solves && weakly_active.size() <= most && entries <= kMostCondensed;
   const bool few_enough = combinations <= kMostCombinations;
   if (condenses && !between_pieces) problem.emplace(structure, laws, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
@@ -150,11 +165,15 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
     return rates.regular() && finder.Excluded(StatesOf(modes), rates);
   };
   bool solved = false;
-  if (condensed != nullptr) {
-    const RateComplementarity complementarity(laws, *condensed, options, weakly_active);
-    const bool unique = complementarity.unique();
-    if (complementarity.exists() && (unique || !few_enough)) {
-      solved = TrySolutions(complementarity, arrival, &finder, &result) && !result.branches.empty();
+  if (pairs && pairs->exist()) {
+    std::optional<RateComplementarity> complementarity;
+    if (condensed != nullptr) complementarity.emplace(*pairs, *condensed);
+    const bool exists = complementarity && complementarity->exists(), unique = exists && complementarity->unique();
+    std::optional<RatesByForces> by_forces;
+    if (!unique && !few_enough) by_forces.emplace(structure, laws, point, natural, weakly_active, *pairs);
+    if (unique || by_forces) {
+      const RateSolvers solvers{exists ? &*complementarity : nullptr, by_forces ? &*by_forces : nullptr};
+      solved = TrySolutions(solvers, arrival, &finder, &result) && !result.branches.empty();
       result.complete_by = unique ? Completeness::kOnlySolution : Completeness::kNone;
     }
   }

@@ -59,59 +59,10 @@ std::optional<Eigen::MatrixXd> Solved(const Eigen::MatrixXd& A, const Eigen::Mat
 
 }  // namespace
 
-RateComplementarity::RateComplementarity(const Laws& laws, const RateProblem& rates, const std::vector<Modes>& options,
-                                         const std::vector<int>& weakly_active)
-    : laws_(laws), rates_(rates), options_(options), weakly_active_(weakly_active) {
-  if (rates.regular() && FindPairs(rates)) Build(rates);
-}
-
-bool RateComplementarity::FindPairs(const RateProblem& rates) {
-  turn_.assign(static_cast<std::size_t>(rates.MotionRates().rows()), kFree);
-  compliance_ = Eigen::VectorXd::Zero(rates.MotionRates().rows());
-  for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
-    const auto i = static_cast<std::size_t>(weakly_active_[k]);
-    const Law& law = laws_[i];
-    const Modes& modes = options_[i];
-    if (law.Holonomic()) return false;
-    const auto acts = [&](const Mode& mode) { return !law.In(mode).idle; };
-    const int base = law.In(*std::find_if(modes.begin(), modes.end(), acts)).held;
-    base_.push_back(base);
-    const bool idle = !std::all_of(modes.begin(), modes.end(), acts);
-    const Eigen::Index first = rates.FirstPort(k);
-    for (std::size_t p = 0; p < law.NumPorts(); ++p)
-      if (const PortRule& port = law.In(base).ports[p]; port.Holds()) {
-        turn_[static_cast<std::size_t>(first) + p] = kHeld;
-        const Eigen::Index at = first + static_cast<Eigen::Index>(p);
-        compliance_[at] = port.compliance * rates.Springs()[at];
-      }
-    const std::size_t pairs_before = pairs_.size();
-    for (const LimitRule& limit : law.In(base).limits) {
-      // A law that may become idle has no force: all its limits are at zero.
-      if (!limit.OfForces() || (!idle && !HasState(modes, limit.next))) continue;
-      Pair pair{k, -1, 1.0};
-      pair.next = limit.next;
-      for (const LimitRule& back : law.In(limit.next).limits)
-        if (back.next == base && !back.OfForces() && !back.OfPiece()) {
-          if (limit.weights[back.port] != back.sign) return false;  // z and w are measured alike
-          pair.port = first + static_cast<Eigen::Index>(back.port);
-          pair.sign = back.sign;
-          for (std::size_t p = 0; p < law.NumPorts(); ++p) {
-            if (p == back.port || limit.weights[p] == 0.0) continue;
-            if (pair.other >= 0) return false;  // a pair is of two ports at most
-            pair.other = first + static_cast<Eigen::Index>(p);
-            pair.weight = limit.weights[p];
-          }
-        }
-      // Nothing leads back from the state beyond: the rates are no complementarity problem.
-      if (pair.port < 0) return false;
-      turn_[static_cast<std::size_t>(pair.port)] = pair.other < 0 ? kAlone : kWithOther;
-      if (pairs_.size() > pairs_before && pairs_.back().port == pair.port) pairs_.back().first_of_two = true;
-      pairs_.push_back(pair);
-    }
-    // None where pieces meet, and two the same way in which the law acts where a cone is as narrow as rounding.
-    if (pairs_.size() == pairs_before || (!idle && pairs_.size() > pairs_before + 1)) return false;
-  }
-  return true;
+RateComplementarity::RateComplementarity(const RatePairs& pairs, const RateProblem& rates) : pairs_(pairs) {
+  if (!pairs.exist() || !rates.regular()) return;
+  compliance_ = pairs.Compliances().cwiseProduct(rates.Springs());
+  Build(rates);
 }
 
 std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::MatrixXd& A) const {
@@ -131,10 +82,10 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
   // First what has to be: motions that are held whatever happens, and at last forces that are none. A node that others
   // hold stays where it is by itself, and its forces need not change. Where such a motion is of a part that nothing
   // holds, its force holds the part, and vanishes.
-  for (int turn = kHeld; turn <= kFree; ++turn)
+  for (int turn = RatePairs::kHeld; turn <= RatePairs::kFree; ++turn)
     for (Eigen::Index direction = 0; direction < size; ++direction)
-      if (turn_[static_cast<std::size_t>(direction)] == turn && !take(direction, turn != kFree) &&
-          !take(direction, turn == kFree))
+      if (pairs_.TurnOf(direction) == turn && !take(direction, turn != RatePairs::kFree) &&
+          !take(direction, turn == RatePairs::kFree))
         return std::nullopt;
   return given;
 }
@@ -169,21 +120,22 @@ void RateComplementarity::Build(const RateProblem& rates) {
   Eigen::VectorXd h = solved->col(size);
 
   // Of two pairs of one port the second has its motion as a share of the port's.
-  for (std::size_t p = 0; p < pairs_.size(); ++p)
-    pairs_[p].motion_is_second =
-        (*given)[static_cast<std::size_t>(pairs_[p].port)] || (p > 0 && pairs_[p - 1].first_of_two);
+  const std::vector<RatePairs::Pair>& pairs = pairs_.pairs();
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    motion_is_second_.push_back((*given)[static_cast<std::size_t>(pairs[p].port)] ||
+                                (p > 0 && pairs[p - 1].first_of_two));
 
   // The second variables of the pairs are Z z = D g + E y, so that g = (D + E G)^-1 (Z z - E h s').
-  const auto num_pairs = static_cast<Eigen::Index>(pairs_.size());
+  const auto num_pairs = static_cast<Eigen::Index>(pairs.size());
   Eigen::MatrixXd D = Eigen::MatrixXd::Identity(size, size), Z = Eigen::MatrixXd::Zero(size, num_pairs);
   Eigen::VectorXd d = Eigen::VectorXd::Zero(size);
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
-    const Pair& pair = pairs_[static_cast<std::size_t>(p)];
+    const RatePairs::Pair& pair = pairs[static_cast<std::size_t>(p)];
     const Eigen::Index t = pair.port, n = pair.other;
     // Of the motion, or of the force with those of other ports; the motion the other way, where the force is given, is
     // no share of it.
-    if ((*given)[static_cast<std::size_t>(t)] || !pair.motion_is_second) Z(t, p) = pair.sign;
-    if (pair.motion_is_second || n < 0) continue;
+    if ((*given)[static_cast<std::size_t>(t)] || !motion_is_second_[static_cast<std::size_t>(p)]) Z(t, p) = pair.sign;
+    if (motion_is_second_[static_cast<std::size_t>(p)] || n < 0) continue;
     const double ratio = pair.sign * pair.weight;
     if ((*given)[static_cast<std::size_t>(n)]) {
       D.row(t) += ratio * G.row(n);
@@ -215,8 +167,8 @@ void RateComplementarity::Build(const RateProblem& rates) {
   matrix_.resize(num_pairs, num_pairs);
   load_.resize(num_pairs);
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
-    const Pair& pair = pairs_[static_cast<std::size_t>(p)];
-    const bool motion = !pair.motion_is_second;
+    const RatePairs::Pair& pair = pairs[static_cast<std::size_t>(p)];
+    const bool motion = !motion_is_second_[static_cast<std::size_t>(p)];
     Eigen::RowVectorXd row = pair.sign * row_of(pair.port, motion);
     if (pair.other >= 0 && !motion) row += pair.weight * row_of(pair.other, false);
     matrix_.row(p) = row.head(num_pairs);
@@ -234,27 +186,16 @@ void RateComplementarity::Build(const RateProblem& rates) {
   matrix_ = scale.asDiagonal() * matrix_ * scale.asDiagonal();
   load_ = scale.cwiseProduct(load_);
   exists_ = true;
-  unique_ = std::none_of(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.first_of_two; }) &&
-            HasOneSolutionForEach(matrix_);
-}
-
-States RateComplementarity::AtBase() const {
-  States states;
-  for (const Modes& option : options_) states.push_back(option.front().state);
-  for (std::size_t k = 0; k < base_.size(); ++k) states[static_cast<std::size_t>(weakly_active_[k])] = base_[k];
-  return states;
+  unique_ = !pairs_.BothWays() && HasOneSolutionForEach(matrix_);
 }
 
 std::vector<States> RateComplementarity::Solve(double load_sense) const {
   std::vector<States> solutions;
   for (const ComplementaritySolution& solution : SolveComplementarity(matrix_, load_sense * load_)) {
-    States& states = solutions.emplace_back(AtBase());
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      int& state = states[static_cast<std::size_t>(weakly_active_[pairs_[p].law])];
-      const bool moves = solution[p] == pairs_[p].motion_is_second;
-      // Motions both ways are those of no force: the first one stands for both.
-      if (moves && state == base_[pairs_[p].law]) state = pairs_[p].next;
-    }
+    // Motions both ways are those of no force: the first one stands for both.
+    std::vector<bool> moves;
+    for (std::size_t p = 0; p < motion_is_second_.size(); ++p) moves.push_back(solution[p] == motion_is_second_[p]);
+    solutions.push_back(pairs_.StatesBeyond(moves));
   }
   return solutions;
 }

@@ -6,101 +6,41 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/branch/held_by_springs.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {
-
-// Scaled stiffness of the spring of a port: of the order of the structure's, so that neither is lost in rounding, and
-// of a port that gives way by less the mean, by its logarithm, of that and of the port's own stiffness. The forces of
-// the springs are part of the unknowns, and are taken out where forces of ports are wanted.
-double SpringOf(const Law& law, std::size_t port) {
-  for (int state = 0; state < law.NumStates(); ++state)
-    if (const PortRule& rule = law.In(state).ports[port]; rule.Holds() && rule.compliance > 0.0)
-      return std::max(1.0, 1.0 / std::sqrt(rule.compliance));
-  return 1.0;
-}
-
-// A force stiffness . motion along a port with this gradient. matrix: transposed, nd components before the load factor.
-void AddSpring(const LawDofs& dofs, const LawVector& gradient, double stiffness, Eigen::Index nd,
-               Eigen::SparseMatrix<double>* matrix) {
-  const auto m = static_cast<Eigen::Index>(dofs.size());
-  for (Eigen::Index a = 0; a < m; ++a) {
-    const int column = dofs[static_cast<std::size_t>(a)];
-    if (gradient[a] == 0.0) continue;
-    if (gradient[m] != 0.0) matrix->coeffRef(nd, column) += stiffness * gradient[a] * gradient[m];
-    for (Eigen::Index b = 0; b < m; ++b)
-      if (gradient[b] != 0.0)
-        matrix->coeffRef(dofs[static_cast<std::size_t>(b)], column) += stiffness * gradient[a] * gradient[b];
-  }
-}
-
-// The change of the forces of the ports by curvature.
-void AddCurvature(const PortsAt& at, const PortReals& forces, Eigen::Index nd, Eigen::SparseMatrix<double>* matrix) {
-  const LawMatrix change = at.ForceChange(forces);
-  const auto m = static_cast<Eigen::Index>(at.dofs.size());
-  for (Eigen::Index a = 0; a < m; ++a)
-    for (Eigen::Index b = 0; b <= m; ++b)
-      matrix->coeffRef(b < m ? at.dofs[static_cast<std::size_t>(b)] : nd, at.dofs[static_cast<std::size_t>(a)]) -=
-          change(b, a);
-}
-
-}  // namespace
 
 RateProblem::RateProblem(const Structure& structure, const Laws& laws, const PathPoint& point, const Modes& modes,
                          const std::vector<int>& weakly_active, const Eigen::VectorXd& arrival)
     : laws_(laws), point_(point), weakly_active_(weakly_active) {
-  Modes base = modes;
-  for (const int i : weakly_active_) {
-    const Law& law = laws[static_cast<std::size_t>(i)];
-    int& state = base[static_cast<std::size_t>(i)].state;
-    for (state = 0; !law.In(state).idle; ++state) {
-    }
-    first_port_.push_back(num_ports_);
-    num_ports_ += static_cast<Eigen::Index>(law.NumPorts());
-  }
-  springs_.resize(num_ports_);
-  for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
-    const Law& law = laws[static_cast<std::size_t>(weakly_active_[k])];
-    for (std::size_t p = 0; p < law.NumPorts(); ++p)
-      springs_[first_port_[k] + static_cast<Eigen::Index>(p)] = SpringOf(law, p);
-  }
-  FixedModeSystem system(structure, laws);
-  system.SetModes(base);
-  const Eigen::VectorXd x = system.Pack(point);
+  HeldBySprings held(structure, laws, point, modes, weakly_active);
+  num_ports_ = held.NumPorts();
+  springs_ = held.Springs();
+  FixedModeSystem& system = held.system();
   const Eigen::Index nd = system.NumDofs();
-  std::vector<PortsAt> ports(weakly_active_.size());
-  Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
-  const Eigen::MatrixXd modes_of_parts = system.FreeMotions(x, transposed);
+  const Eigen::MatrixXd modes_of_parts =
+      system.FreeMotions(held.x(), Eigen::SparseMatrix<double>(system.TransposedJacobian(held.x())));
   free_.resize(num_ports_, modes_of_parts.cols());
-  bool couples = false;
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
-    const auto i = static_cast<std::size_t>(weakly_active_[k]);
-    const Law& law = laws[i];
-    PortsAt& at = ports[k];
-    law.Evaluate(point.u, point.s, modes[i].piece, {}, &at);
-    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+    const PortsAt& at = held.Ports(k);
+    first_port_.push_back(held.FirstPort(k));
+    for (std::size_t p = 0; p < laws[static_cast<std::size_t>(weakly_active_[k])].NumPorts(); ++p)
       for (Eigen::Index j = 0; j < modes_of_parts.cols(); ++j)
         free_(first_port_[k] + static_cast<Eigen::Index>(p), j) = at.Rate(at[p].gradient, modes_of_parts.col(j), 0.0);
-      AddSpring(at.dofs, at[p].gradient, springs_[first_port_[k] + static_cast<Eigen::Index>(p)] * at[p].factor, nd,
-                &transposed);
-    }
-    if (law.Curved()) AddCurvature(at, laws.Of(point.forces, i), nd, &transposed);
-    couples = couples || law.Couples();
   }
-  transposed.makeCompressed();
   BorderedSolver solver;
   // Springs among unknowns that elements do not couple have places of their own in the matrix.
-  if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd),
-                        couples ? nullptr : system.InFrame()) ||
+  if (!solver.Factorize(held.TransposedJacobian(1.0), Eigen::VectorXd::Unit(system.NumUnknowns(), nd),
+                        held.couples() ? nullptr : system.InFrame()) ||
       solver.DeterminantSign() == 0)
     return;
 
   Eigen::MatrixXd motions(nd, num_ports_ + 1);
   motions.col(0) = solver.Solve(Eigen::VectorXd::Zero(system.NumEquations()), 1.0).head(nd);
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
-    const PortsAt& at = ports[k];
+    const PortsAt& at = held.Ports(k);
     const auto count = static_cast<Eigen::Index>(laws[static_cast<std::size_t>(weakly_active_[k])].NumPorts());
     Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system.NumEquations(), count), moved;
     for (Eigen::Index p = 0; p < count; ++p)
@@ -114,7 +54,7 @@ RateProblem::RateProblem(const Structure& structure, const Laws& laws, const Pat
   motion_.resize(num_ports_, motions.cols());
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
     const auto i = static_cast<std::size_t>(weakly_active_[k]);
-    const PortsAt& at = ports[k];
+    const PortsAt& at = held.Ports(k);
     for (std::size_t p = 0; p < laws[i].NumPorts(); ++p) {
       const Eigen::Index row = first_port_[k] + static_cast<Eigen::Index>(p);
       for (Eigen::Index j = 0; j < motions.cols(); ++j)

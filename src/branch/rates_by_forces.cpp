@@ -1,86 +1,154 @@
-// The complementarity problem of the rates in forces, with springs that hold what nothing else does.
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
+#include "branch/rates_by_forces.h"
 
-#include "contact_path/branch/complementarity.h"
-#include "contact_path/branch/rate_complementarity.h"
+#include <cmath>
+
+#include "branch/lemke.h"
 
 namespace contact_path {
+namespace {
 
-std::vector<States> RateComplementarity::SolveByForces(double load_sense, double share) const {
-  const Eigen::Index size = compliance_.size();
-  // v = A (r + (1 - share) v) + b s', r over the stiffness of the spring of the port; then over that of the stiffest.
-  const Eigen::MatrixXd A = rates_.MotionRates().rightCols(size);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> held_by_springs(Eigen::MatrixXd::Identity(size, size) - (1.0 - share) * A);
-  const Eigen::VectorXd over = rates_.Springs().maxCoeff() * rates_.Springs().cwiseInverse();
-  const Eigen::MatrixXd S = held_by_springs.solve(Eigen::MatrixXd(A * over.asDiagonal())) +
-                            Eigen::MatrixXd(compliance_.cwiseProduct(over).asDiagonal());
-  const Eigen::VectorXd free = load_sense * held_by_springs.solve(rates_.MotionRates().col(0));
+constexpr double kChange = 1e-9;  // of the load: what breaks ties
 
-  // Variables: of each pair a force; of a port that may slip both ways the size of its slip, too. w = T (S r + free) +
-  // L x with the forces r = F x + G y, y of what is held.
-  const auto slips = std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.first_of_two; });
-  const auto count = static_cast<Eigen::Index>(pairs_.size());
-  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(size, count + slips), G = Eigen::MatrixXd::Identity(size, size), T, L;
-  T.setZero(count + slips, size);
-  L.setZero(count + slips, count + slips);
-  std::vector<bool> held(static_cast<std::size_t>(size));
-  std::vector<Eigen::Index> slip_of(pairs_.size(), -1), force_of(static_cast<std::size_t>(size), -1);
-  for (std::size_t d = 0; d < held.size(); ++d) held[d] = turn_[d] == kHeld;
-  Eigen::Index slip = count;
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const auto p = static_cast<std::size_t>(j);
-    const Pair& pair = pairs_[p];
-    const bool second = p > 0 && pairs_[p - 1].first_of_two, both_ways = pair.first_of_two || second;
-    // Where it slips either way, the force against a slip; else w.
-    F(pair.port, j) = T(j, pair.port) = both_ways ? -pair.sign : pair.sign;
-    if (pair.other < 0) {
-      force_of[static_cast<std::size_t>(pair.port)] = j;
-    } else if (!both_ways) {
-      G(pair.port, pair.other) = -pair.sign * pair.weight;
-    } else {
-      if (pair.first_of_two) {
-        if (force_of[static_cast<std::size_t>(pair.other)] < 0) return {};
-        L(slip, force_of[static_cast<std::size_t>(pair.other)]) = pair.weight;
-      }
-      slip_of[p] = slip;
-      L(j, slip) = 1.0;
-      L(slip, j) = -1.0;
-      if (second) ++slip;
-    }
-  }
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index d = 0; d < size; ++d)
-    if (held[static_cast<std::size_t>(d)]) kept.push_back(d);
-  const Eigen::MatrixXd given = G(Eigen::all, kept);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> of_held((S * given)(kept, Eigen::all));
-  const auto without_held = [&](const Eigen::MatrixXd& motions) -> Eigen::MatrixXd {
-    if (kept.empty()) return motions;
-    return motions - S * (given * of_held.solve(Eigen::MatrixXd(motions(kept, Eigen::all))));
-  };
-  Eigen::MatrixXd M = T * without_held(S * F) + L;
-  Eigen::VectorXd q = T * without_held(free);
-  Eigen::VectorXd scale(M.rows());
-  for (Eigen::Index j = 0; j < count; ++j) {
-    scale[j] = M(j, j) > 0.0 ? 1.0 / std::sqrt(M(j, j)) : 1.0;
-    if (const Eigen::Index of = slip_of[static_cast<std::size_t>(j)]; of >= 0) scale[of] = 1.0 / scale[j];
-  }
-  M = scale.asDiagonal() * M * scale.asDiagonal();
-  q = scale.cwiseProduct(q);
-  if (!M.allFinite() || !q.allFinite()) return {};
+}  // namespace
 
-  std::vector<States> found;
-  for (const ComplementaritySolution& basic : SolveComplementarity(M, q)) {
-    States& states = found.emplace_back(AtBase());
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      int& state = states[static_cast<std::size_t>(weakly_active_[pairs_[p].law])];
-      const bool beyond = slip_of[p] >= 0 ? basic[static_cast<std::size_t>(slip_of[p])] && basic[p] : !basic[p];
-      if (beyond && state == base_[pairs_[p].law]) state = pairs_[p].next;
-    }
+RatesByForces::RatesByForces(const Structure& structure, const Laws& laws, const PathPoint& point, const Modes& modes,
+                             const std::vector<int>& weakly_active, const RatePairs& pairs)
+    : held_(structure, laws, point, modes, weakly_active), pairs_(pairs) {
+  for (std::size_t k = 0; k < weakly_active.size(); ++k)
+    law_of_.insert(law_of_.end(), laws[static_cast<std::size_t>(weakly_active[k])].NumPorts(), k);
+  exists_ = NumberColumns();
+  if (!exists_) return;
+  for (std::size_t k = 0; k < weakly_active.size(); ++k) AddForces(k);
+  AddPairs();
+}
+
+// Forces are those of held ports and those of pairs: of a port that may slip both ways against the slip, of another one
+// w where it slips one way.
+bool RatesByForces::NumberColumns() {
+  const std::vector<RatePairs::Pair>& pairs = pairs_.pairs();
+  slip_of_.assign(pairs.size(), -1);
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    if (pairs[p].first_of_two) slip_of_[p] = num_slips_++;
+    if (p > 0 && pairs[p - 1].first_of_two) slip_of_[p] = slip_of_[p - 1];
   }
-  return found;
+  const auto num_pairs = static_cast<Eigen::Index>(pairs.size());
+  force_.resize(law_of_.size());
+  for (std::size_t d = 0; d < force_.size(); ++d)
+    if (pairs_.TurnOf(static_cast<Eigen::Index>(d)) == RatePairs::kHeld)
+      force_[d].push_back({held_.system().NumUnknowns() - 1 + num_held_++, 1.0});
+  const Eigen::Index first = held_.system().NumUnknowns() - 1 + num_held_ + num_pairs + num_slips_;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    force_[static_cast<std::size_t>(pairs[p].port)].push_back(
+        {first + static_cast<Eigen::Index>(p), slip_of_[p] >= 0 ? -pairs[p].sign : pairs[p].sign});
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    if (pairs[p].other < 0) continue;
+    const std::vector<Term>& other = force_[static_cast<std::size_t>(pairs[p].other)];
+    if (other.empty()) return false;
+    if (slip_of_[p] < 0)
+      for (const Term& term : other)
+        force_[static_cast<std::size_t>(pairs[p].port)].push_back(
+            {term.column, -pairs[p].sign * pairs[p].weight * term.share});
+  }
+  return true;
+}
+
+void RatesByForces::AddForces(std::size_t k) {
+  const PortsAt& at = held_.Ports(k);
+  for (auto d = static_cast<std::size_t>(held_.FirstPort(k)); d < law_of_.size() && law_of_[d] == k; ++d) {
+    const PortAt& port = at[d - static_cast<std::size_t>(held_.FirstPort(k))];
+    for (const Term& term : force_[d])
+      for (std::size_t a = 0; a < at.dofs.size(); ++a)
+        entries_.emplace_back(at.dofs[a], term.column,
+                              -term.share * port.factor * port.gradient[static_cast<Eigen::Index>(a)]);
+  }
+}
+
+void RatesByForces::AddPairs() {
+  const std::vector<RatePairs::Pair>& pairs = pairs_.pairs();
+  const auto count = static_cast<Eigen::Index>(pairs.size()) + num_slips_;
+  Eigen::Index row = held_.system().NumUnknowns() - 1;
+  for (std::size_t d = 0; d < law_of_.size(); ++d)
+    if (pairs_.TurnOf(static_cast<Eigen::Index>(d)) == RatePairs::kHeld)
+      AddMotion(row++, static_cast<Eigen::Index>(d), 1.0);
+  // w less what it is.
+  for (Eigen::Index i = 0; i < count; ++i) entries_.emplace_back(row + i, row + i, 1.0);
+  const Eigen::Index slips = row + static_cast<Eigen::Index>(pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const Eigen::Index equation = row + static_cast<Eigen::Index>(p);
+    AddMotion(equation, pairs[p].port, slip_of_[p] >= 0 ? pairs[p].sign : -pairs[p].sign);
+    if (slip_of_[p] < 0) continue;
+    const Eigen::Index slip = slips + slip_of_[p];
+    entries_.emplace_back(equation, slip + count, -1.0);
+    entries_.emplace_back(slip, equation + count, 1.0);
+    if (pairs[p].first_of_two)
+      for (const Term& term : force_[static_cast<std::size_t>(pairs[p].other)])
+        entries_.emplace_back(slip, term.column, -pairs[p].weight * term.share);
+  }
+}
+
+// factor * the motion of a port, what it gives way by included.
+void RatesByForces::AddMotion(Eigen::Index equation, Eigen::Index port, double factor) {
+  const auto d = static_cast<std::size_t>(port);
+  const std::size_t k = law_of_[d];
+  const PortsAt& at = held_.Ports(k);
+  const LawVector& gradient = at[d - static_cast<std::size_t>(held_.FirstPort(k))].gradient;
+  for (std::size_t a = 0; a < at.dofs.size(); ++a)
+    entries_.emplace_back(equation, at.dofs[a], factor * gradient[static_cast<Eigen::Index>(a)]);
+  for (const Term& term : force_[d])
+    entries_.emplace_back(equation, term.column, factor * pairs_.Compliances()[port] * term.share);
+  const auto pairs = static_cast<Eigen::Index>(pairs_.pairs().size()) + num_slips_;
+  entries_.emplace_back(equation, held_.system().NumUnknowns() - 1 + num_held_ + 2 * pairs,
+                        factor * gradient[static_cast<Eigen::Index>(at.dofs.size())]);
+}
+
+// Forces over k and motions times k, k^2 the stiffness of the springs, so that motions and forces are of one size.
+// changes: of motions far below what ports give way by.
+void RatesByForces::Scale(double share, Eigen::SparseMatrix<double>* equations, Eigen::VectorXd* changes) const {
+  const Eigen::Index nd = held_.system().NumDofs(), first = held_.system().NumUnknowns() - 1 + num_held_;
+  const auto pairs = static_cast<Eigen::Index>(pairs_.pairs().size());
+  const double spring = held_.Springs().maxCoeff(), k = std::sqrt(spring * share);
+  const double force = kChange * equations->col(equations->cols() - 1).toDense().lpNorm<Eigen::Infinity>();
+  Eigen::VectorXd rows = Eigen::VectorXd::Constant(equations->rows(), k);
+  Eigen::VectorXd columns = Eigen::VectorXd::Constant(equations->cols(), k);
+  rows.head(nd).setConstant(1.0 / k);
+  rows.tail(num_slips_).setConstant(1.0 / k);
+  columns.head(nd).setConstant(1.0 / k);
+  columns.segment(first, pairs).setConstant(1.0 / k);
+  columns.segment(first + 2 * pairs + num_slips_, num_slips_).setConstant(1.0 / k);
+  columns.tail<1>().setOnes();
+  *equations = Eigen::SparseMatrix<double>(rows.asDiagonal() * *equations * columns.asDiagonal());
+  *changes = Eigen::VectorXd::Constant(pairs + num_slips_, force * k / spring);
+  changes->tail(num_slips_).setConstant(force / k);
+}
+
+std::optional<States> RatesByForces::Solve(double load_sense, double share, ComplementaritySolution* near) const {
+  if (!exists_) return std::nullopt;
+  const Eigen::SparseMatrix<double> of_structure = held_.TransposedJacobian(share);
+  const Eigen::Index s = held_.system().NumDofs();
+  ComplementarityProblem problem;
+  problem.pairs = static_cast<Eigen::Index>(pairs_.pairs().size()) + num_slips_;
+  const Eigen::Index rows = of_structure.cols() + num_held_ + problem.pairs, last = rows + problem.pairs;
+  std::vector<Eigen::Triplet<double>> entries = entries_;
+  for (Eigen::Index equation = 0; equation < of_structure.cols(); ++equation)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(of_structure, equation); it; ++it)
+      entries.emplace_back(equation, it.row() == s ? last : it.row() < s ? it.row() : it.row() - 1, it.value());
+  Eigen::SparseMatrix<double> all(rows, last + 1);
+  all.setFromTriplets(entries.begin(), entries.end());
+  Scale(share, &all, &problem.changes);
+  problem.right = -load_sense * all.col(last);
+  problem.equations = all.leftCols(last);
+  if (!problem.right.allFinite()) return std::nullopt;
+  const Eigen::VectorXd cover = Eigen::VectorXd::Ones(problem.pairs);
+  std::optional<ComplementaritySolution> forces = SolveByLemke(problem, cover, *near);
+  if (!forces && !near->empty()) forces = SolveByLemke(problem, cover);
+  if (!forces) return std::nullopt;
+  *near = *forces;
+  std::vector<bool> beyond;
+  const std::size_t num_pairs = pairs_.pairs().size();
+  for (std::size_t p = 0; p < num_pairs; ++p)
+    beyond.push_back(slip_of_[p] < 0 ? !(*forces)[p]
+                                     : (*forces)[p] && (*forces)[num_pairs + static_cast<std::size_t>(slip_of_[p])]);
+  return pairs_.StatesBeyond(beyond);
 }
 
 }  // namespace contact_path

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
+#include "contact_path/linear/generic_vector.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -14,23 +15,28 @@ namespace {
 // Triangular factor of rows that come one after another: the null space of all of them.
 class RowSpace {
  public:
-  explicit RowSpace(Eigen::Index columns) : r_(Eigen::MatrixXd::Zero(columns, columns)) {}
+  explicit RowSpace(Eigen::Index columns)
+      : r_(Eigen::MatrixXd::Zero(columns, columns)), end_(static_cast<std::size_t>(columns), 0) {}
 
   // By Givens rotations.
   void Add(Eigen::RowVectorXd row) {
-    for (Eigen::Index j = 0; j < r_.cols(); ++j) {
+    Eigen::Index end = row.size();  // from here on it is zero
+    while (end > 0 && row[end - 1] == 0.0) --end;
+    for (Eigen::Index j = 0; j < end; ++j) {
       if (row[j] == 0.0) continue;
       const double a = r_(j, j), b = row[j], norm = std::hypot(a, b), c = a / norm, s = b / norm;
-      const Eigen::Index rest = r_.cols() - j;  // before, both are zero
-      const Eigen::RowVectorXd above = r_.row(j).tail(rest);
-      r_.row(j).tail(rest) = c * above + s * row.tail(rest);
-      row.tail(rest) = c * row.tail(rest) - s * above;
+      end = end_[static_cast<std::size_t>(j)] = std::max(end, end_[static_cast<std::size_t>(j)]);
+      const Eigen::Index rest = end - j;  // before, both are zero
+      const Eigen::RowVectorXd above = r_.row(j).segment(j, rest);
+      r_.row(j).segment(j, rest) = c * above + s * row.segment(j, rest);
+      row.segment(j, rest) = c * row.segment(j, rest) - s * above;
       row[j] = 0.0;
     }
   }
 
   // Orthonormal; directions that change a row by less than tolerances::kDependentColumn of the largest are in it.
   Eigen::MatrixXd NullSpace() const {
+    if (IsFarFromSingular()) return Eigen::MatrixXd(r_.cols(), 0);
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Eigen::MatrixXd(r_.transpose()));
     qr.setThreshold(tolerances::kDependentColumn);
     const Eigen::MatrixXd q = qr.householderQ();
@@ -38,7 +44,23 @@ class RowSpace {
   }
 
  private:
+  // By the inverse power method: its smallest singular value, which no pivot is below.
+  bool IsFarFromSingular() const {
+    if (r_.cols() < kMany || !(r_.diagonal().cwiseAbs().minCoeff() > 0.0)) return false;
+    Eigen::VectorXd v = GenericVector(r_.cols()).normalized();
+    double growth = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      r_.triangularView<Eigen::Upper>().transpose().solveInPlace(v);
+      r_.triangularView<Eigen::Upper>().solveInPlace(v);
+      growth = v.norm();
+      v /= growth;
+    }
+    return growth * r_.squaredNorm() < 1.0 / tolerances::kDependentColumn;
+  }
+
+  static constexpr Eigen::Index kMany = 48;  // fewer are quick
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> r_;
+  std::vector<Eigen::Index> end_;  // by row: from here on it is zero
 };
 
 // Of each component, the part that it belongs to: the smallest number of a component of the part.

@@ -24,7 +24,12 @@ std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneInd
 namespace {
 
 const Resultant& ResultantOf(const Quantity& quantity, const Increment& increment) {
-  return (quantity.of_boundary ? increment.boundaries : increment.supports)[quantity.part];
+  switch (quantity.of) {
+    case Quantity::Of::kSupport: return increment.supports[quantity.part];
+    case Quantity::Of::kBoundary: return increment.boundaries[quantity.part];
+    case Quantity::Of::kPin: break;
+  }
+  return increment.pins[quantity.part];
 }
 
 }  // namespace

@@ -68,7 +68,9 @@ Function OfResponse(const Model& model, const Quantity& quantity, double unit, c
     const PathPoint point = system.Unpack(x);
     Increment increment;
     FillLists(model, point, {quantity.IsOfSection(), quantity.IsOfElement(), quantity.IsOfPressure()}, &increment);
-    if (quantity.IsReaction()) {
+    if (quantity.of == Quantity::Of::kPin) {
+      FillState(model, point, &increment);
+    } else if (quantity.IsReaction()) {
       Reactions reactions = model.ReactionsAt(point);
       increment.supports = std::move(reactions.supports);
       increment.boundaries = std::move(reactions.boundaries);

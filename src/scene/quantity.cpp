@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "contact_path/scene/expand.h"
+
 namespace contact_path {
 namespace {
 
@@ -60,9 +62,12 @@ bool Holds(const SupportedNode& support, Quantity::Kind kind) {
 
 std::optional<Quantity> FindReaction(Quantity::Kind kind, std::string_view name, const SceneIndex& index) {
   const std::optional<std::size_t> support = index.FindSupport(name);
-  if (support && Holds(index.Support(*support), kind)) return Quantity{kind, *support, false};
+  if (support && Holds(index.Support(*support), kind)) return Quantity{kind, *support};
   const std::optional<std::size_t> boundary = index.FindBoundary(name);
-  if (!support && boundary) return Quantity{kind, *boundary, true};
+  if (!support && boundary) return Quantity{kind, *boundary, Quantity::Of::kBoundary};
+  const std::optional<std::size_t> pin = support ? std::nullopt : index.FindPin(std::string(name));
+  if (pin && (kind != Quantity::Kind::kMoment || index.HasSpring(*pin)))
+    return Quantity{kind, *pin, Quantity::Of::kPin};
   return std::nullopt;
 }
 
@@ -107,7 +112,7 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
   if (quantity.IsOfSection() || quantity.IsOfElement()) return FindInElements(quantity.kind, spelled->name, index);
   if (quantity.kind == Quantity::Kind::kWidth) {
     const std::optional<std::size_t> boundary = index.FindBoundary(spelled->name);
-    return boundary ? std::optional(Quantity{quantity.kind, *boundary, true}) : std::nullopt;
+    return boundary ? std::optional(Quantity{quantity.kind, *boundary, Quantity::Of::kBoundary}) : std::nullopt;
   }
   if (quantity.IsReaction()) return FindReaction(quantity.kind, spelled->name, index);
   if (const std::optional<std::size_t> obstacle = index.FindObstacle(spelled->name)) {
@@ -131,6 +136,7 @@ NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
       if (Quantity{quantity.kind}.IsReaction() && Holds(support, quantity.kind))
         nearest.Offer(scene.nodes[support.node].name);
     for (const TouchedBoundary& boundary : TouchedBoundaries(scene)) nearest.Offer(boundary.name);
+    for (std::size_t i = 0; i < scene.pins.size(); ++i) nearest.Offer(PinName(scene.pins[i], i));
     return nearest;
   }
   if (Quantity{quantity.kind}.IsOfSection() || Quantity{quantity.kind}.IsOfElement()) return NearestName(quantity.name);
@@ -162,6 +168,10 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
   for (const SupportedNode& support : SupportedNodes(scene))
     offer(scene.nodes[support.node].name,
           [&](const Quantity& of) { return of.IsReaction() && Holds(support, of.kind); });
+  for (std::size_t i = 0; i < scene.pins.size(); ++i)
+    offer(PinName(scene.pins[i], i), [&](const Quantity& of) {
+      return of.IsReaction() && (of.kind != Quantity::Kind::kMoment || scene.pins[i].stiffness > 0.0);
+    });
   for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
     offer(boundary.name, [](const Quantity& of) { return of.IsReaction() || of.kind == Quantity::Kind::kWidth; });
   return nearest;
@@ -169,7 +179,7 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
 
 std::string PartOf(Quantity::Kind kind) {
   if (Quantity{kind}.IsReaction())
-    return "a component that a support holds, or an obstacle or surface with contact candidates";
+    return "a component that a support holds, an obstacle or surface with contact candidates, or a pin";
   if (kind == Quantity::Kind::kWidth) return "an obstacle or surface with contact candidates";
   if (Quantity{kind}.IsOfSection()) return "a segment of a beam, as leg.1, or of N a bar, as bar1";
   if (Quantity{kind}.IsOfElement()) return "an element of a solid, as block.1";

@@ -134,6 +134,10 @@ SceneIndex::SceneIndex(const Scene& scene) : elements_(scene) {
   for (std::size_t i = 0; i < supported_.size(); ++i) supports_.emplace(scene.nodes[supported_[i].node].name, i);
   for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
     boundaries_.emplace(boundary.name, boundaries_.size());
+  for (std::size_t i = 0; i < scene.pins.size(); ++i) {
+    pins_.emplace(PinName(scene.pins[i], i), i);
+    has_spring_.push_back(scene.pins[i].stiffness > 0.0);
+  }
 }
 
 }  // namespace contact_path

@@ -1,9 +1,12 @@
 // Toy problems w = M z + q, 0 <= w, 0 <= z, w . z = 0.
 #include "contact_path/branch/complementarity.h"
+#include "branch/lemke.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -124,6 +127,34 @@ TEST(Complementarity, RaysAndTies) {
   chain.diagonal(1).setConstant(-1.0);
   chain.diagonal(-1).setConstant(-1.0);
   EXPECT_EQ(Found(chain, Eigen::VectorXd::Constant(n, -1.0)), (std::set<Basis>{Basis(n, true)}));
+}
+
+// Springs under a load f with unilateral supports of the gaps g: K x - G' z = f, w - G x = g. Without x it is w = G
+// K^-1 G' z + G K^-1 f + g, which has one solution; stiffnesses over six decades, and more supports than one makes
+// factors for.
+TEST(Complementarity, FreeVariables) {
+  Random random(6);
+  for (const double stiffness : {1e-3, 1.0, 1e3})
+    for (const Eigen::Index n : {2, 6, 150}) {
+      const Eigen::MatrixXd root = RandomMatrix(&random, n);
+      const Eigen::MatrixXd K = stiffness * (root * root.transpose() + Eigen::MatrixXd::Identity(n, n));
+      const Eigen::MatrixXd G = RandomMatrix(&random, n);
+      const Eigen::VectorXd f = random.Vector(n, -1.0, 1.0), g = random.Vector(n, 0.0, 1.0) / stiffness;
+      Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(2 * n, 3 * n);
+      equations.topLeftCorner(n, n) = K;
+      equations.topRightCorner(n, n) = -G.transpose();
+      equations.bottomLeftCorner(n, n) = -G;
+      equations.block(n, n, n, n).setIdentity();
+      Eigen::VectorXd right(2 * n);
+      right << f, g;
+      const auto found = SolveByLemke({equations.sparseView(), right, n, Eigen::VectorXd::Constant(n, 1e-9)},
+                                      Eigen::VectorXd::Ones(n));
+      const Eigen::LLT<Eigen::MatrixXd> factors(K);
+      const Eigen::MatrixXd M = G * factors.solve(G.transpose());
+      ASSERT_TRUE(found);
+      EXPECT_TRUE(Solves(stiffness * M, stiffness * (G * factors.solve(f) + g), *found)) << stiffness << ' ' << n;
+      EXPECT_TRUE(std::count(found->begin(), found->end(), true) > 0 || n < 6);
+    }
 }
 
 }  // namespace

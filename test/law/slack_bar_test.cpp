@@ -198,7 +198,8 @@ TEST_F(NodeOnTwoStrings, RatesAreOneComplementarityProblem) {
   const std::vector<int> weakly_active = {1};
   const RateProblem rates(structure_, laws_, point, point.modes, weakly_active, Vector3d(1.0, 0.0, 1.0).normalized());
   ASSERT_TRUE(rates.regular());
-  const RateComplementarity problem(laws_, rates, options, weakly_active);
+  const RatePairs pairs(laws_, options, weakly_active);
+  const RateComplementarity problem(pairs, rates);
   EXPECT_TRUE(problem.exists() && problem.unique());
   for (const double sense : {1.0, -1.0}) {
     const std::vector<States> solutions = problem.Solve(sense);

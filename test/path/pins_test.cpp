@@ -13,6 +13,7 @@
 #include "contact_path/path/earlier_trace.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/validate.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -97,6 +98,16 @@ TEST(Pins, ADoublePendulum) {
     EXPECT_NEAR(increment.pins[1].ry, -0.7, kExact);
   }
   ExpectNoFindings(path);
+}
+
+TEST(Pins, APathEndsWhereAPinBears) {
+  TraceRequest request = DoublePendulum();
+  request.options.stop = {{"pin1.rx", "<", -1.5}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_NEAR(path.increments.back().load_factor, 1.5, kSame);
+  request.options.stop[0].quantity = "pin1.rm";
+  EXPECT_THROW(TraceIncrements(request), InvalidRequest);  // it has no spring
 }
 
 // By virtual work: s f . x' = k (phi - angle), with the coupler where it has to be for the turn phi of the crank.

@@ -33,8 +33,8 @@ struct Quantity {
     kPressure,   // <contact>.pressure: rn over the length of the boundary there (response/contact_pressure.h)
     kTraction,   // <contact>.traction: rt over that length
     kWidth,      // <obstacle>.width, <surface>.width: length of the contacts that touch it
-    // <node>.rx, or rx_<node>: of the support, on the structure; <obstacle>.rx, <surface>.rx: of all contacts with it.
-    // Of a support and a boundary with one name the support is meant.
+    // <node>.rx, or rx_<node>: of the support, on the structure; <obstacle>.rx, <surface>.rx: of all contacts with it;
+    // <pin>.rx: on the first node by the second. Of several with one name the first of these is meant.
     kForceX,
     kForceY,  // .ry
     kMoment,  // .rm
@@ -64,10 +64,13 @@ struct Quantity {
   bool IsOfElement() const { return kind >= Kind::kSxx; }
 
   Kind kind = Kind::kLoadFactor;
-  // Place of the node, obstacle or contact in its list of the scene; of a reaction, in SupportedNodes() or
-  // TouchedBoundaries(); number of the section or element (scene/scene_index.h).
+  // What a reaction is of.
+  enum class Of { kSupport, kBoundary, kPin };
+
+  // Place of the node, obstacle, contact or pin in its list of the scene; of a reaction otherwise, in SupportedNodes()
+  // or TouchedBoundaries(); number of the section or element (scene/scene_index.h).
   std::size_t part = 0;
-  bool of_boundary = false;
+  Of of = Of::kSupport;
 };
 
 Unit UnitOf(Quantity::Kind kind);
@@ -82,7 +85,7 @@ struct SpelledQuantity {
 // The spellings above; nothing for another one. `text` must outlive the result.
 std::optional<SpelledQuantity> ReadQuantity(std::string_view text);
 
-// Nothing for another spelling, a part that the scene does not have, and a component that no support holds.
+// Nothing for another spelling, a part that the scene does not have, and a component that no support holds, or the moment of a pin without a spring.
 std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& index);
 
 // The quantity of the scene that another spelling may mean.

@@ -92,6 +92,8 @@ class SceneIndex {
   // Places in SupportedNodes() and TouchedBoundaries().
   std::optional<std::size_t> FindSupport(std::string_view node) const { return Find(supports_, node); }
   std::optional<std::size_t> FindBoundary(std::string_view name) const { return Find(boundaries_, std::string(name)); }
+  std::optional<std::size_t> FindPin(const std::string& name) const { return Find(pins_, name); }
+  bool HasSpring(std::size_t pin) const { return has_spring_[pin]; }
   const SupportedNode& Support(std::size_t place) const { return supported_[place]; }
   const ElementNames& Elements() const { return elements_; }
 
@@ -103,8 +105,9 @@ class SceneIndex {
   }
 
   std::unordered_map<std::string_view, std::size_t> nodes_, materials_, surfaces_, obstacles_, supports_;
-  std::unordered_map<std::string, std::size_t> contacts_, boundaries_;  // by name
+  std::unordered_map<std::string, std::size_t> contacts_, boundaries_, pins_;  // by name
   std::vector<SupportedNode> supported_;
+  std::vector<bool> has_spring_;  // by pin
   ElementNames elements_;
 };
 
