@@ -151,9 +151,13 @@ def slip(path: Increments, structure: Structure, contact: str) -> np.ndarray:
         steps = np.diff(slid, prepend=slid[:1])
     else:
         places = np.column_stack((path['x_' + node], path['y_' + node]))
-        boundary = structure.obstacles[obstacle]
-        _, xi = boundary.foot(structure.placement(obstacle, path).back(places)[known])
+        boundary, placement, radius = structure.obstacles[obstacle], structure.placement(obstacle, path), structure.contact_radii[index]
+        normals, xi = boundary.foot(placement.back(places)[known], radius > 0.0)
         steps = boundary.slips(np.diff(xi, prepend=xi[:1]))
+        if radius > 0.0:  # the circle turns against the tangent
+            body = structure.names[structure.carriers[contact[:contact.index('@')]]]
+            turn = (path['rotation_' + body] - placement.angle)[known] - np.unwrap(np.arctan2(normals[:, 1], normals[:, 0]))
+            steps = steps + radius * np.diff(turn, prepend=turn[:1])
     slips = np.full(len(path), np.nan)
     slips[known] = np.cumsum(np.where(np.isin(states[known], ('slip+', 'slip-', 'closed')), steps, 0.0))
     return slips

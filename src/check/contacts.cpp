@@ -77,14 +77,11 @@ class ObstacleContact : public Contact {
   }
   // The point of a circle that touches goes along by its radius times the turn of the circle against the tangent.
   Real Slip(const PlacedState& from, const PlacedState& to) const override {
-    const Vector begin = Position(from), end = Position(to);
-    const Real along = obstacle_.surface->Slip(begin, end);
+    const Real along = Along(Position(from), Position(to));
     if (!Rolls()) return along;
-    const Vector before = obstacle_.surface->Normal(begin), after = obstacle_.surface->Normal(end);
-    const Real of_tangent = std::atan2(before.x * after.y - before.y * after.x, Dot(before, after));
     const Real of_circle =
         to.Rotation(obstacle_.circle) - from.Rotation(obstacle_.circle) - obstacle_.TurnAt(to) + obstacle_.TurnAt(from);
-    return along + obstacle_.radius * (of_circle - of_tangent);
+    return along + obstacle_.radius * of_circle;
   }
   std::optional<Real> TotalSlip(const PlacedState& state) const override {
     if (!slip_origin_) return std::nullopt;
@@ -127,7 +124,15 @@ class ObstacleContact : public Contact {
     if ((!gives_ && overlap_.at_0 == 0.0L) || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
     const Vector along{step * n.y, -step * n.x};
-    return obstacle_.surface->Slip(at, at + along) / obstacle_.surface->Slip(closed, closed + along);
+    return Along(at, at + along) / Along(closed, closed + along);
+  }
+  // From one place of the node to another: of the point of a circle that does not turn. On a hollow the place goes a
+  // shorter way than the foot, round a corner a longer one, by the radius times the turn of the tangent.
+  Real Along(const Vector& begin, const Vector& end) const {
+    const Real of_foot = obstacle_.surface->Slip(begin, end);
+    if (!Rolls()) return of_foot;
+    const Vector before = obstacle_.surface->Normal(begin), after = obstacle_.surface->Normal(end);
+    return of_foot - obstacle_.radius * std::atan2(Cross(before, after), Dot(before, after));
   }
   Real Distance(const PlacedState& state) const { return obstacle_.surface->Gap(Position(state)) - obstacle_.radius; }
   bool Rolls() const { return obstacle_.radius > 0.0L; }
@@ -325,6 +330,7 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     if (!contact.obstacles.empty()) {
       const Obstacle& circle = *circles.at(contact.obstacles.front());
       partner.radius = circle.radius;
+      partner.surface = MakeSurface(*circles.at(contact.obstacle), true);
       partner.circle = numbers.at(circle.body);
     }
     partner.num_nodes = scene.nodes.size();

@@ -57,7 +57,10 @@ class Walk : public Surface {
     const Foot foot = Nearest(x);
     return foot.is_end ? foot.distance : Dot(foot.normal, x - foot.place);
   }
-  Vector Normal(const Vector& x) const override { return Nearest(x).normal; }
+  Vector Normal(const Vector& x) const override {
+    const Foot foot = Nearest(x);
+    return foot.is_end && for_circles_ ? 1.0L / foot.distance * (x - foot.place) : foot.normal;
+  }
   Real Slip(const Vector& from, const Vector& to) const override {
     const Real slip = Nearest(to).walked - Nearest(from).walked;
     return closed_ ? std::remainder(slip, length_) : slip;
@@ -75,7 +78,7 @@ class Walk : public Surface {
     bool is_end = false;  // of an open curve
   };
 
-  explicit Walk(bool closed) : closed_(closed) {}
+  Walk(bool closed, bool for_circles) : closed_(closed), for_circles_(for_circles) {}
 
   virtual Foot Nearest(const Vector& x) const = 0;
 
@@ -119,7 +122,7 @@ class Walk : public Surface {
     beyond_.push_back({direction, height});
   }
 
-  bool closed_;
+  bool closed_, for_circles_;
   Real length_ = 0.0L;
   NearestPiece search_;
 
@@ -134,7 +137,7 @@ class Walk : public Surface {
 // The corners of a polyline are cut by circles that touch both edges.
 class Polyline : public Walk {
  public:
-  explicit Polyline(const Obstacle& obstacle) : Walk(obstacle.closed) {
+  Polyline(const Obstacle& obstacle, bool for_circles) : Walk(obstacle.closed, for_circles) {
     const std::vector<Vector> corners = PlacesOf(obstacle);
     const std::size_t n = corners.size(), edges = closed_ ? n : n - 1;
     std::vector<Vector> directions;
@@ -244,7 +247,7 @@ class Polyline : public Walk {
 // derivatives; these are zero at open ends.
 class Spline : public Walk {
  public:
-  explicit Spline(const Obstacle& obstacle) : Walk(obstacle.closed) {
+  Spline(const Obstacle& obstacle, bool for_circles) : Walk(obstacle.closed, for_circles) {
     const std::vector<Vector> points = PlacesOf(obstacle);
     const std::size_t n = points.size(), count = closed_ ? n : n - 1;
     std::vector<Real> steps;
@@ -356,12 +359,12 @@ class Spline : public Walk {
 
 }  // namespace
 
-std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
+std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle, bool for_circles) {
   switch (obstacle.shape) {
     case ObstacleShape::kHalfPlane: break;
     case ObstacleShape::kCircle: return std::make_unique<Circle>(obstacle);
-    case ObstacleShape::kPolyline: return std::make_unique<Polyline>(obstacle);
-    case ObstacleShape::kSpline: return std::make_unique<Spline>(obstacle);
+    case ObstacleShape::kPolyline: return std::make_unique<Polyline>(obstacle, for_circles);
+    case ObstacleShape::kSpline: return std::make_unique<Spline>(obstacle, for_circles);
   }
   return std::make_unique<HalfPlane>(obstacle);
 }

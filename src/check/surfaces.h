@@ -25,7 +25,8 @@ class Surface {
   virtual bool SurelyOpen(const Vector&) const { return false; }
 };
 
-std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);
+// for_circles: at an end of an open curve the normal leads to the point, as the end is a corner for a circle about it.
+std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle, bool for_circles = false);
 
 }  // namespace contact_path::check
 

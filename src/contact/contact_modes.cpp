@@ -46,7 +46,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
     if (HasPatches() && !Seamless())
       for (const bool begin : {true, false})
         limits.push_back(OfMotion(begin ? ContactLimit::kPatchBegin : ContactLimit::kPatchEnd, LimitRule::Of::kPiece,
-                                  kTangent, begin ? 1.0 : -1.0, state));
+                                  FootPort(), begin ? 1.0 : -1.0, state));
     return limits;
   };
   std::vector<StateRule> states(5);
@@ -56,6 +56,7 @@ void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits)
   stick.ports = {held, PortRule{PortRule::Kind::kHeld, 0.0, along}};
   stick.limits = {bears, OfForces(ContactLimit::kConePlus, {mu, 1.0}, unit, ContactState::kSlipPlus),
                   OfForces(ContactLimit::kConeMinus, {mu, -1.0}, unit, ContactState::kSlipMinus)};
+  if (surface_traits_.rolls) stick.limits = with_ends(ContactState::kStick, stick.limits);
   stick.held = NumberOf(ContactState::kStick);
   stick.symmetric = !traits.holonomic && !traits.curved;
   for (const bool plus : {true, false}) {
@@ -90,7 +91,7 @@ void ContactPair::AddLimits(const Mode& mode, int law, std::vector<Limit>* limit
   }
   for (const LimitRule& rule : In(mode).limits)
     if (!rule.OfPiece()) limits->push_back({law, rule.id});
-  if (StateOf(mode) != ContactState::kStick) AddPatchEnds(mode, law, limits);
+  if (StateOf(mode) != ContactState::kStick || surface_traits_.rolls) AddPatchEnds(mode, law, limits);
 }
 
 void ContactPair::AddPatchEnds(const Mode& mode, int law, std::vector<Limit>* limits) const {
@@ -186,7 +187,7 @@ Modes ContactPair::ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, 
   const int patch = KnownPatch(u, s, now.piece);
   int before = patch, after = patch;  // where slip leads
   if (HasPatches() && !Seamless()) {
-    const double xi = Xi(u, s, patch);
+    const double xi = FootXi(u, s, patch);
     const XiRange range = RangeOf(patch);
     if (xi <= range.begin + tolerance.motion) --before;
     if (xi >= range.end - tolerance.motion) ++after;
@@ -194,7 +195,8 @@ Modes ContactPair::ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, 
   Modes modes;
   for (const ContactState state : StatesAt(u, s, patch, StateOf(now), forces[kNormal], forces[kTangent], tolerance)) {
     std::vector<int> patches = {patch};
-    const bool either_way = state == ContactState::kClosed || (Holonomic() && Slips(state));
+    const bool either_way = surface_traits_.rolls ? state != ContactState::kOpen
+                                                  : state == ContactState::kClosed || (Holonomic() && Slips(state));
     if (either_way) {
       if (before != patch) patches.push_back(before);
       if (after != patch) patches.push_back(after);

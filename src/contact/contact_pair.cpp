@@ -13,9 +13,11 @@ int ContactPair::PatchOfTouching(int patch) const {
 }
 
 double ContactPair::Xi(const Eigen::VectorXd& u, double s, int patch) const {
-  PortsAt at;
-  Evaluate(u, s, patch, {}, &at);
-  return at[kTangent].motion;
+  return Law::Motion(kTangent, u, s, patch, {});
+}
+
+double ContactPair::FootXi(const Eigen::VectorXd& u, double s, int patch) const {
+  return Law::Motion(FootPort(), u, s, patch, {});
 }
 
 double ContactPair::Motion(std::size_t port, const Eigen::VectorXd& u, double s, int patch,

@@ -21,7 +21,8 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
                      double compliance, const Rolling& rolls, double friction_rate, const BroughtOn& overlap)
     : surface_(std::move(surface)),
       place_(std::move(place)),
-      share_rate_(friction > 0.0 ? friction_rate / friction : 0.0) {
+      share_rate_(friction > 0.0 ? friction_rate / friction : 0.0),
+      radius_(rolls.radius) {
   Traits traits;
   SurfaceTraits of_surface;
   traits.largest_ratio = friction;
@@ -31,6 +32,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
   of_surface.overlap = overlap;
   of_surface.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
   of_surface.seamless = surface_->Seamless();
+  of_surface.rolls = rolls.radius > 0.0 && of_surface.has_patches && !of_surface.seamless;
   const XiRange range = surface_->Range();
   if (surface_->Closed()) of_surface.round = range.end - range.begin;
   if (slip_origin)
@@ -47,6 +49,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
     for (Eigen::Index i = 0; i <= last; ++i) {
       traits.moves[kNormal][static_cast<std::size_t>(i)] = place_.Moves(i) || (i == last && overlap.rate != 0.0);
       traits.moves[kTangent][static_cast<std::size_t>(i)] = place_.Moves(i) || roll_[i] != 0.0;
+      traits.moves[kFoot][static_cast<std::size_t>(i)] = of_surface.rolls && place_.Moves(i);
     }
     // In a frame that turns: the farther from its origin, the faster.
     traits.largest_reach_rate = place_.Affine()
@@ -113,6 +116,8 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const Po
   ToGap(s, &gap);
   gap.hessian = place.Hessian(at.normal, GapHessian(at));
   xi.hessian = place.Hessian(XiGradient(at), XiHessian(at));
+  if (FootPort() == kFoot)
+    (*ports)[kFoot] = {at.xi, place.first.transpose() * XiGradient(at), xi.hessian, 1.0, LawVector()};
   if (share_rate_ == 0.0) return;
   xi.factor = Share(s);
   xi.factor_gradient = LawVector::Unit(xi.gradient.size(), xi.gradient.size() - 1) * share_rate_;
@@ -149,6 +154,19 @@ int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {
 
 int RigidPair::PatchAfter(const Eigen::VectorXd& u, double s, int from) const {
   return HasPatches() ? PatchBeside(*surface_, place_.At(u, s), from) : 0;
+}
+
+bool RigidPair::TouchesTwice(const Eigen::VectorXd& u, double s, int patch) const {
+  if (FootPort() != kFoot) return false;
+  const Eigen::Vector2d x = place_.At(u, s);
+  const double own = surface_->Project(x, NearestKnown(patch)).gap;
+  for (int other = 0; other < surface_->NumPatches(); ++other) {
+    const Projection at = surface_->Project(x, other);
+    const XiRange range = surface_->RangeOf(other);
+    const bool has_foot = at.xi >= range.begin && at.xi <= range.end;
+    if (has_foot && at.gap < own - tolerances::kTouching && at.gap > -radius_) return true;
+  }
+  return false;
 }
 
 LawMatrix RigidPair::ChangeAlong(const PlaceAt& place, const Projection& at, double rn, double rt,

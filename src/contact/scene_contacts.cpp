@@ -136,7 +136,7 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     std::shared_ptr<const Surface> surface = obstacles[at].surface;
     if (circle != nullptr) {
       rolls = {circle->radius, point.frame.angle, frame.angle};
-      surface = MakeSurface(WhereCentresMove(obstacle, circle->radius));
+      surface = MakeSurface(obstacle, circle->radius);
     }
     contacts.push_back(std::make_unique<RigidPair>(std::move(surface), MovingPlace::SeenFrom(frame, point),
                                                    can_slide ? candidate.FrictionWith(obstacle) : 0.0, force_bounds,

@@ -50,7 +50,7 @@ FixedModeSystem::Motion FixedModeSystem::MotionOf(const Limit& limit) const {
   const auto i = static_cast<std::size_t>(limit.law);
   const LimitRule& rule = RuleOf(limit);
   if (!rule.OfPiece()) return {i, rule.port, rule.sign};
-  const double reference = reference_[laws_.FirstPort(i) + static_cast<Eigen::Index>(rule.port)];
+  const double reference = laws_.Of(reference_, i)[rule.port];
   return {i, rule.port, rule.sign, rule.sign * (reference - laws_[i].BoundOf(modes_[i], limit.id))};
 }
 

@@ -18,6 +18,7 @@ using Eigen::Vector2d;
 
 constexpr int kDeepest = 12;       // halvings of a cubic
 constexpr int kSamples = 8;        // of a cubic, where the search for a foot sets out
+constexpr int kCurvatures = 64;    // of a cubic, where the search for the largest one sets out
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
 
 // A number in two parts, high + low, of which the second is below the rounding of the first.
@@ -87,13 +88,42 @@ Vector2d ArcPiece::PointAt(double xi) const {
   return centre_ + radius_ * (std::cos(angle) * middle_ + std::sin(angle) * LeftOf(middle_));
 }
 
-CubicPiece::CubicPiece(const Vector2d& begin, const Vector2d& first, const Vector2d& second, const Vector2d& third)
-    : begin_(begin), first_(first), second_(second), third_(third), scale_(Integral(0.0, 1.0)) {
+CubicPiece::CubicPiece(const Vector2d& begin, const Vector2d& first, const Vector2d& second, const Vector2d& third,
+                       double distance)
+    : begin_(begin), first_(first), second_(second), third_(third), distance_(distance), scale_(Integral(0.0, 1.0)) {
   Divide(0.0, 1.0, scale_, 0);
 }
 
 CubicPiece::Derivatives CubicPiece::At(double tau) const {
   return {first_ + tau * (2.0 * second_ + 3.0 * tau * third_), 2.0 * second_ + 6.0 * tau * third_};
+}
+
+double CubicPiece::CurvatureAt(double tau) const {
+  const auto [first, second] = At(tau);
+  const double speed = first.norm();
+  return Cross(first, second) / (speed * speed * speed);
+}
+
+double CubicPiece::LargestCurvature() const {
+  int nearest = 0;
+  for (int i = 1; i <= kCurvatures; ++i)
+    if (CurvatureAt(static_cast<double>(i) / kCurvatures) > CurvatureAt(static_cast<double>(nearest) / kCurvatures))
+      nearest = i;
+  double from = std::max(nearest - 1, 0) / static_cast<double>(kCurvatures),
+         to = std::min(nearest + 1, kCurvatures) / static_cast<double>(kCurvatures);
+  for (int i = 0; i < kMostIterations && to - from > tolerances::kSameDirection; ++i) {
+    const double third = (to - from) / 3.0;
+    if (CurvatureAt(from + third) < CurvatureAt(to - third))
+      from += third;
+    else
+      to -= third;
+  }
+  return std::max(CurvatureAt(0.5 * (from + to)), 0.0);
+}
+
+double CubicPiece::TurnOf(double from, double to) const {
+  const Vector2d before = At(from).first, after = At(to).first;
+  return std::atan2(Cross(before, after), before.dot(after));
 }
 
 double CubicPiece::Integral(double from, double to) const {
@@ -116,8 +146,9 @@ void CubicPiece::Divide(double from, double to, double integral, int depth) {
     return;
   }
   for (const auto& [end, length] : {std::pair(middle, before), std::pair(to, after)}) {
+    const double turn = distance_ == 0.0 ? 0.0 : TurnOf(taus_.back(), end);
     taus_.push_back(end);
-    lengths_.push_back(lengths_.back() + length);
+    lengths_.push_back(lengths_.back() + (length - distance_ * turn));
   }
 }
 
@@ -125,7 +156,8 @@ double CubicPiece::ArcLength(double tau) const {
   // From the part that tau is in; before the first one and after the last one from there.
   const auto next = std::upper_bound(taus_.begin() + 1, taus_.end() - 1, tau);
   const auto part = static_cast<std::size_t>(next - taus_.begin()) - 1;
-  return lengths_[part] + Integral(taus_[part], tau);
+  const double length = Integral(taus_[part], tau);
+  return lengths_[part] + (distance_ == 0.0 ? length : length - distance_ * TurnOf(taus_[part], tau));
 }
 
 double CubicPiece::FootOf(const Vector2d& from_begin) const {
@@ -169,22 +201,30 @@ Projection CubicPiece::Project(const Vector2d& x) const {
   const double k_second = c_second / cube - 3.0 * c_first / cube * b - 1.5 * a * w_second / w + 3.75 * a * b * b;
   Projection at;
   at.normal = LeftOf(first / speed);
-  at.gap = (from_begin - Offset(tau)).dot(at.normal);
+  at.gap = (from_begin - Offset(tau)).dot(at.normal) - distance_;
   at.xi = ArcLength(tau);
   at.curvature = a;
   at.curvature_first = k_first / speed;
   at.curvature_second = (k_second - 0.5 * k_first * b) / w;
+  if (distance_ == 0.0) return at;
+  // With m = 1 - k d, dxi is m times that of the cubic, and the curvature k / m.
+  const double m = 1.0 - at.curvature * distance_, m3 = m * m * m;
+  at.curvature /= m;
+  at.curvature_second =
+      (at.curvature_second / m + 3.0 * distance_ * at.curvature_first * at.curvature_first / (m * m)) / m3;
+  at.curvature_first /= m3;
   return at;
 }
 
 Vector2d CubicPiece::PointAt(double xi) const {
   double tau = xi / Length();
   for (int i = 0; i < kMostIterations; ++i) {
-    const double move = (xi - ArcLength(tau)) / At(tau).first.norm();
+    const double move = (xi - ArcLength(tau)) / (At(tau).first.norm() * (1.0 - distance_ * CurvatureAt(tau)));
     tau += move;
     if (!(std::abs(move) > tolerances::kLastDigits)) break;
   }
-  return begin_ + Offset(tau);
+  if (distance_ == 0.0) return begin_ + Offset(tau);
+  return begin_ + Offset(tau) + distance_ * LeftOf(At(tau).first.normalized());
 }
 
 Curve::Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi, bool seamless)

@@ -93,6 +93,60 @@ Columns SolveCyclic(std::vector<double> diagonal, const std::vector<double>& bes
   return solved - change * share;
 }
 
+// The pieces of a spline, at a distance.
+std::vector<CubicPiece> SplinePieces(const PlanePoints& points, bool closed, double distance) {
+  const std::size_t n = points.size(), count = closed ? n : n - 1;
+  std::vector<double> lengths;   // of the intervals of the parameter
+  std::vector<Vector2d> slopes;  // mean derivatives on them
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector2d edge = points[(i + 1) % n] - points[i];
+    lengths.push_back(std::hypot(edge.x(), edge.y()));
+    slopes.push_back(edge / lengths.back());
+  }
+  // Second derivatives at the points, from continuous first ones.
+  Columns bends = Columns::Zero(static_cast<Eigen::Index>(n), 2);
+  const std::size_t first = closed ? 0 : 1, equations = closed ? n : n - 2;
+  if (equations > 0) {
+    std::vector<double> diagonal, beside;
+    Columns right(static_cast<Eigen::Index>(equations), 2);
+    for (std::size_t k = 0; k < equations; ++k) {
+      const std::size_t after = first + k, before = (after + count - 1) % count;
+      diagonal.push_back(2.0 * (lengths[before] + lengths[after]));
+      if (k + 1 < equations) beside.push_back(lengths[after]);
+      right.row(static_cast<Eigen::Index>(k)) = 6.0 * (slopes[after] - slopes[before]).transpose();
+    }
+    bends.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(equations)) =
+        closed ? SolveCyclic(std::move(diagonal), beside, lengths.back(), right)
+               : SolveTridiagonal(std::move(diagonal), beside, std::move(right));
+  }
+  std::vector<CubicPiece> pieces;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector2d from = bends.row(static_cast<Eigen::Index>(i)),
+                   to = bends.row(static_cast<Eigen::Index>((i + 1) % n));
+    const double h = lengths[i];
+    pieces.emplace_back(points[i], h * slopes[i] - h * h / 6.0 * (2.0 * from + to), 0.5 * h * h * from,
+                        h * h / 6.0 * (to - from), distance);
+  }
+  return pieces;
+}
+
+// A curve of pieces at a distance from another one. Of an open one, half a circle about either end of that curve is
+// part of what is at the distance.
+std::unique_ptr<const Curve> Joined(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed,
+                                    double distance) {
+  if (closed || distance == 0.0) return std::make_unique<Curve>(std::move(pieces), closed);
+  const auto round_end = [&](const CurvePiece& piece, double xi, double sense) {
+    const Vector2d at = piece.PointAt(xi), normal = piece.Project(at).normal;
+    return std::make_unique<ArcPiece>(at - distance * normal, distance, sense * TangentOf(normal), M_PI,
+                                      ArcPiece::Side::kOutside);
+  };
+  auto begin = round_end(*pieces.front(), pieces.front()->Range().begin, -1.0);
+  auto end = round_end(*pieces.back(), pieces.back()->Range().end, 1.0);
+  pieces.insert(pieces.begin(), std::move(begin));
+  pieces.push_back(std::move(end));
+  return std::make_unique<Curve>(std::move(pieces), closed, -M_PI * distance);
+}
+
 }  // namespace
 
 std::optional<std::size_t> FindEqualPoints(const PlanePoints& points, bool closed) {
@@ -151,7 +205,8 @@ std::optional<std::size_t> TooShort(const PlanePoints& points, bool closed, cons
   return std::nullopt;
 }
 
-std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, const std::vector<double>& fillets) {
+std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, const std::vector<double>& fillets,
+                                          double distance) {
   const Edges edges(points, closed);
   std::vector<std::unique_ptr<const CurvePiece>> pieces;
   const std::size_t count = edges.lengths.size();
@@ -161,7 +216,8 @@ std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed
     const double fillet = fillets[corner], from = fillets[i] * edges.Share(i), cut = fillet * edges.Share(corner);
     const double length = edges.lengths[i] - from - cut;
     if (length > tolerances::kRounding * edges.lengths[i])
-      pieces.push_back(std::make_unique<LinePiece>(points[i] + from * direction, direction, length));
+      pieces.push_back(
+          std::make_unique<LinePiece>(points[i] + from * direction + distance * LeftOf(direction), direction, length));
     if (cut == 0.0) continue;
     const double turn = edges.turns[corner], sign = turn > 0.0 ? 1.0 : -1.0;
     const Vector2d& next = edges.directions[corner];
@@ -171,45 +227,38 @@ std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed
     const Vector2d middle = bisector / LengthOf(bisector);
     const Vector2d centre = points[corner % points.size()] - cut * direction + sign * fillet * left;
     const auto side = turn > 0.0 ? ArcPiece::Side::kInside : ArcPiece::Side::kOutside;
-    pieces.push_back(std::make_unique<ArcPiece>(centre, fillet, middle, std::abs(turn), side));
+    pieces.push_back(std::make_unique<ArcPiece>(centre, fillet - sign * distance, middle, std::abs(turn), side));
   }
-  return std::make_unique<Curve>(std::move(pieces), closed);
+  return Joined(std::move(pieces), closed, distance);
 }
 
-std::unique_ptr<const Curve> MakeSpline(const PlanePoints& points, bool closed) {
-  const std::size_t n = points.size(), count = closed ? n : n - 1;
-  std::vector<double> lengths;   // of the intervals of the parameter
-  std::vector<Vector2d> slopes;  // mean derivatives on them
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vector2d edge = points[(i + 1) % n] - points[i];
-    lengths.push_back(std::hypot(edge.x(), edge.y()));
-    slopes.push_back(edge / lengths.back());
-  }
-  // Second derivatives at the points, from continuous first ones.
-  Columns bends = Columns::Zero(static_cast<Eigen::Index>(n), 2);
-  const std::size_t first = closed ? 0 : 1, equations = closed ? n : n - 2;
-  if (equations > 0) {
-    std::vector<double> diagonal, beside;
-    Columns right(static_cast<Eigen::Index>(equations), 2);
-    for (std::size_t k = 0; k < equations; ++k) {
-      const std::size_t after = first + k, before = (after + count - 1) % count;
-      diagonal.push_back(2.0 * (lengths[before] + lengths[after]));
-      if (k + 1 < equations) beside.push_back(lengths[after]);
-      right.row(static_cast<Eigen::Index>(k)) = 6.0 * (slopes[after] - slopes[before]).transpose();
-    }
-    bends.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(equations)) =
-        closed ? SolveCyclic(std::move(diagonal), beside, lengths.back(), right)
-               : SolveTridiagonal(std::move(diagonal), beside, std::move(right));
-  }
+std::optional<Hollow> HollowOfPolyline(const PlanePoints& points, bool closed, const std::vector<double>& fillets) {
+  const Edges edges(points, closed);
+  std::optional<Hollow> sharpest;
+  for (std::size_t i = 0; i < edges.turns.size(); ++i)
+    if (edges.Share(i) > 0.0 && edges.turns[i] > 0.0 && (!sharpest || fillets[i] < sharpest->radius))
+      sharpest = {i, fillets[i]};
+  return sharpest;
+}
+
+std::unique_ptr<const Curve> MakeSpline(const PlanePoints& points, bool closed, double distance) {
   std::vector<std::unique_ptr<const CurvePiece>> pieces;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vector2d from = bends.row(static_cast<Eigen::Index>(i)),
-                   to = bends.row(static_cast<Eigen::Index>((i + 1) % n));
-    const double h = lengths[i];
-    pieces.push_back(std::make_unique<CubicPiece>(points[i], h * slopes[i] - h * h / 6.0 * (2.0 * from + to),
-                                                  0.5 * h * h * from, h * h / 6.0 * (to - from)));
-  }
-  return std::make_unique<Curve>(std::move(pieces), closed);
+  for (CubicPiece& piece : SplinePieces(points, closed, distance))
+    pieces.push_back(std::make_unique<CubicPiece>(std::move(piece)));
+  return Joined(std::move(pieces), closed, distance);
+}
+
+std::optional<Hollow> HollowOfSpline(const PlanePoints& points, bool closed) {
+  double largest = 0.0;
+  std::size_t at = 0;
+  const std::vector<CubicPiece> pieces = SplinePieces(points, closed, 0.0);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (const double curvature = pieces[i].LargestCurvature(); curvature > largest) {
+      largest = curvature;
+      at = i;
+    }
+  if (largest == 0.0) return std::nullopt;
+  return Hollow{at, 1.0 / largest};
 }
 
 }  // namespace contact_path

@@ -207,6 +207,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     Append(CurveTooSharp(model_, increment.point), &end.causes);
     Append(BeyondHalfRound(model_, increment.residuals), &end.causes);
     Append(BehindBoundary(model_, increment.point), &end.causes);
+    Append(TouchesTwice(model_, increment.point), &end.causes);
     return Ended(end);
   }
   departure_.NoteReactions(increment.point);

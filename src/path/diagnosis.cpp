@@ -65,7 +65,7 @@ SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int pa
   PortsAt ports;
   pair.Evaluate(point.u, point.s, known, {}, &ports);
   if (ports.dofs.empty()) return sharpest;
-  const double xi = ports[kTangent].motion;
+  const double xi = ports[pair.FootPort()].motion;
   const XiRange range = pair.RangeOf(known);
   const LawVector place = ports.Local(point.u, point.s);
   sharpest.size = std::max(std::abs(xi), place.head(place.size() - 1).lpNorm<Eigen::Infinity>());
@@ -257,13 +257,22 @@ Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint
   return {};
 }
 
+Causes TouchesTwice(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    if (StateOf(point, i) == ContactState::kOpen) continue;
+    if (model.contacts[i]->TouchesTwice(point.u, point.s, point.modes[i].piece))
+      return {{sentences::kTouchesTwice, model.scene.contacts[i].Name()}};
+  }
+  return {};
+}
+
 Causes StandsAtEnd(const Model& model, const PathPoint& point) {
   std::vector<std::size_t> at_end;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
     if (!pair.HasPatches() || StateOf(point, i) == ContactState::kOpen) continue;
     const int patch = pair.KnownPatch(point.u, point.s, point.modes[i].piece);
-    const double xi = pair.Xi(point.u, point.s, patch);
+    const double xi = pair.FootXi(point.u, point.s, patch);
     const XiRange range = pair.RangeOf(patch);
     if ((xi - range.begin <= tolerances::kTouching && !pair.HasPatch(patch - 1)) ||
         (range.end - xi <= tolerances::kTouching && !pair.HasPatch(patch + 1)))

@@ -99,10 +99,13 @@ void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& co
 
 void ContactRules::CheckRolling(const KeyPath& path, const ContactCandidate& contact, const Obstacle& circle,
                                 const Obstacle& obstacle, double length) {
-  const double gap = MakeSurface(WhereCentresMove(obstacle, circle.radius))
-                         ->ProjectOnNearest(Eigen::Vector2d(circle.px, circle.py))
-                         .gap;
-  if (Refuses(contact, gap, length))
+  if (const std::string misfit = FindMisfit(obstacle, circle.radius); !misfit.empty())
+    return checker_.Add(path.Key("obstacles")[0], circle.name, misfit);
+  const Eigen::Vector2d centre(circle.px, circle.py);
+  const std::unique_ptr<const Surface> surface = MakeSurface(obstacle);
+  const NearestFoot nearest = surface->Nearest(centre);
+  const double distance = nearest.is_end ? nearest.distance : surface->Project(centre, nearest.patch).gap;
+  if (const double gap = distance - circle.radius; Refuses(contact, gap, length))
     checker_.Add(path, contact.Name(), "the circle penetrates the obstacle at the start by " + NumberText(-gap));
 }
 

@@ -154,11 +154,9 @@ class GroupRules {
                                 NearestOf(contact.obstacles[i], scene_.obstacles, &Obstacle::name).Question());
     if (circle->shape != ObstacleShape::kCircle || circle->inside || circle->body.empty())
       return checker_.Add(key[0], circle->name, "must be a circle that a body carries, and not be its inside");
-    if (partner->shape != ObstacleShape::kHalfPlane && partner->shape != ObstacleShape::kCircle)
-      return checker_.Add(key[1], partner->name, "must be a half plane or a circle");
     if (partner->body == circle->body)
       return checker_.Add(key[1], partner->name, "must not be carried by the same body, " + circle->body);
-    if (partner->inside && !(circle->radius < partner->radius))
+    if (partner->shape == ObstacleShape::kCircle && partner->inside && !(circle->radius < partner->radius))
       return checker_.Add(key[0], circle->name, "must have a smaller radius than " + partner->name);
     const Node* const centre = checker_.KnownNode(CentreNode(*circle, scene_));
     if (centre != nullptr && (centre->body != circle->body || centre->x != circle->px || centre->y != circle->py))

@@ -112,29 +112,34 @@ ShapeFault FindShapeFault(const Obstacle& obstacle) {
   return FindPolylineFault(obstacle, points);
 }
 
-Obstacle WhereCentresMove(Obstacle obstacle, double radius) {
-  if (obstacle.shape == ObstacleShape::kCircle) {
-    obstacle.radius += obstacle.inside ? -radius : radius;
-  } else {
-    const double share = radius / std::hypot(obstacle.nx, obstacle.ny);
-    obstacle.px += share * obstacle.nx;
-    obstacle.py += share * obstacle.ny;
-  }
-  return obstacle;
+std::string FindMisfit(const Obstacle& obstacle, double radius) {
+  const PlanePoints points = PointsOf(obstacle);
+  std::optional<Hollow> hollow;
+  const bool spline = obstacle.shape == ObstacleShape::kSpline;
+  if (spline) hollow = HollowOfSpline(points, obstacle.closed);
+  if (obstacle.shape == ObstacleShape::kPolyline)
+    hollow = HollowOfPolyline(points, obstacle.closed, FilletsOf(obstacle, points));
+  if (!hollow || radius < (1.0 - kCancelled) * hollow->radius) return {};
+  return "its radius " + Text(radius) + " must be less than the " + (spline ? "radius of curvature " : "fillet ") +
+         Text(hollow->radius) + " of the hollow of " + obstacle.name + (spline ? " behind point " : " at point ") +
+         Number(hollow->point) + ": where it does not fit it touches twice, and that is two obstacles";
 }
 
-std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
-  const Eigen::Vector2d point(obstacle.px, obstacle.py);
+std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle, double radius) {
+  Eigen::Vector2d point(obstacle.px, obstacle.py);
   switch (obstacle.shape) {
     case ObstacleShape::kHalfPlane: break;
-    case ObstacleShape::kCircle: return MakeCircle(point, obstacle.radius, obstacle.inside);
+    case ObstacleShape::kCircle:
+      return MakeCircle(point, obstacle.radius + (obstacle.inside ? -radius : radius), obstacle.inside);
     case ObstacleShape::kPolyline: {
       const PlanePoints points = PlacedPoints(obstacle);
-      return MakePolyline(points, obstacle.closed, FilletsOf(obstacle, points));
+      return MakePolyline(points, obstacle.closed, FilletsOf(obstacle, points), radius);
     }
-    case ObstacleShape::kSpline: return MakeSpline(PlacedPoints(obstacle), obstacle.closed);
+    case ObstacleShape::kSpline: return MakeSpline(PlacedPoints(obstacle), obstacle.closed, radius);
   }
-  return std::make_unique<HalfPlane>(point, Eigen::Vector2d(obstacle.nx, obstacle.ny));
+  const Eigen::Vector2d normal(obstacle.nx, obstacle.ny);
+  if (radius > 0.0) point += radius / std::hypot(normal.x(), normal.y()) * normal;
+  return std::make_unique<HalfPlane>(point, normal);
 }
 
 }  // namespace contact_path

@@ -39,6 +39,46 @@ TEST(Polyline, HasFeetBesideItsEdgesAndFillets) {
   }
 }
 
+// Where centres of circles are that touch it: at corners about the same points, and round open ends.
+TEST(Polyline, AtADistanceHasOtherFilletsAndRoundEnds) {
+  constexpr double kDistance = 0.2, kFillet = 0.3;
+  for (const PlanePoints& points : {kSteps, kBox, kBlock}) {
+    const bool closed = points != kSteps;
+    const std::vector<double> fillets(points.size(), kFillet);
+    const auto curve = MakePolyline(points, closed, fillets), beside = MakePolyline(points, closed, fillets, kDistance);
+    const int ends = closed ? 0 : 1;
+    EXPECT_EQ(beside->NumPatches(), curve->NumPatches() + 2 * ends);
+    ExpectFeet(*beside, 0.05, 1e-13);
+    ExpectContinuity(*beside, false, kRounding);
+    ExpectDerivatives(*beside, 0.05, 0.02);
+    for (int patch = 0; patch < curve->NumPatches(); ++patch) {
+      const Vector2d x = BesidePatch(*curve, patch, 0.3, 0.25);
+      const Projection at = curve->Project(x, patch), here = beside->Project(x, patch + ends);
+      EXPECT_NEAR(here.gap, at.gap - kDistance, kRounding);
+      EXPECT_NEAR((here.normal - at.normal).norm(), 0.0, 10.0 * kRounding);
+      EXPECT_NEAR(here.curvature * (1.0 - kDistance * at.curvature), at.curvature, 1e-12);
+    }
+    // Corners to the right are longer by what those to the left are shorter.
+    const double turn = points == kBox ? 2.0 * kPi : points == kBlock ? -2.0 * kPi : 0.0;
+    if (closed) {
+      EXPECT_NEAR(beside->Length(), curve->Length() - kDistance * turn, 1e-13);
+    }
+  }
+  const auto open = MakePolyline(kSteps, false, std::vector<double>(4, kFillet), kDistance);
+  const Projection ahead = open->ProjectOnNearest(kSteps.front() - Vector2d(0.5, 0.0));
+  EXPECT_NEAR(ahead.gap, 0.5 - kDistance, kRounding);
+  EXPECT_NEAR((ahead.normal - Vector2d(-1.0, 0.0)).norm(), 0.0, kRounding);
+  EXPECT_NEAR(ahead.xi, -0.5 * kPi * kDistance, kRounding);
+  EXPECT_NEAR(open->PointAt(0.0).y(), 1.0 + kDistance, kRounding);
+}
+
+TEST(Polyline, FindsItsSharpestHollow) {
+  EXPECT_EQ(HollowOfPolyline(kSteps, false, {0.1, 0.2, 0.3, 0.05})->point, 2U);
+  EXPECT_EQ(HollowOfPolyline(kSteps, false, {0.1, 0.2, 0.3, 0.05})->radius, 0.3);
+  EXPECT_EQ(HollowOfPolyline(kBox, true, {0.4, 0.2, 0.3, 0.5})->point, 1U);
+  EXPECT_FALSE(HollowOfPolyline(kBlock, true, {0.4, 0.2, 0.3, 0.5}));
+}
+
 TEST(Polyline, TurnsItsAdmissibleSideToTheLeft) {
   EXPECT_NEAR(RoundedPolyline(kBox, true, 0.1)->ProjectOnNearest({1.5, 0.5}).gap, 0.5, kRounding);
   EXPECT_NEAR(RoundedPolyline(kBlock, true, 0.1)->ProjectOnNearest({1.5, 0.5}).gap, -0.5, kRounding);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "support/surface_checks.h"
 
@@ -25,6 +26,42 @@ TEST(Spline, HasFeetDerivativesAndContinuousCurvature) {
     ExpectContinuity(*curve, true, 1e-13);
     ExpectDerivatives(*curve, 0.1, 0.02, 1e-7);
   }
+}
+
+// Where centres of circles are that touch it, as far as hollows admit.
+TEST(Spline, AtADistanceHasFeetAndDerivatives) {
+  for (const bool closed : {false, true}) {
+    const PlanePoints& points = closed ? kCam : kWave;
+    const auto curve = MakeSpline(points, closed);
+    const std::optional<Hollow> hollow = HollowOfSpline(points, closed);
+    for (const double share : {0.1, 0.7}) {
+      const double distance = share * (hollow ? hollow->radius : 1.0);
+      const auto beside = MakeSpline(points, closed, distance);
+      const int ends = closed ? 0 : 1;
+      EXPECT_EQ(beside->NumPatches(), curve->NumPatches() + 2 * ends);
+      ExpectFeet(*beside, 0.02, 1e-12);
+      ExpectContinuity(*beside, false, 1e-12);
+      ExpectDerivatives(*beside, 0.02, 0.005, 1e-5);
+      for (int patch = 0; patch < curve->NumPatches(); ++patch) {
+        const Vector2d x = BesidePatch(*curve, patch, 0.3, distance + 0.02);
+        const Projection at = curve->Project(x, patch), here = beside->Project(x, patch + ends);
+        EXPECT_NEAR(here.gap, 0.02, 1e-13);
+        EXPECT_NEAR((here.normal - at.normal).norm(), 0.0, 1e-13);
+        EXPECT_NEAR(here.curvature * (1.0 - distance * at.curvature), at.curvature, 1e-12);
+      }
+    }
+  }
+}
+
+// Curvature of y = h (3 tau - tau^3) / 2, half of the spline through three points, and of its mirror image.
+TEST(Spline, FindsItsSharpestHollow) {
+  const auto hollow = HollowOfSpline({{-1.0, 0.5}, {0.0, 0.0}, {1.0, 0.5}, {2.0, 1.0}}, false);
+  ASSERT_TRUE(hollow);
+  EXPECT_LE(hollow->point, 1U);
+  const auto valley = HollowOfSpline({{-1.0, 0.5}, {0.0, 0.0}, {1.0, 0.5}}, false);
+  ASSERT_TRUE(valley);
+  EXPECT_NEAR(valley->radius, 1.0 / 1.5, 1e-9);
+  EXPECT_FALSE(HollowOfSpline({{-1.0, 0.0}, {0.0, 0.5}, {1.0, 0.0}}, false));
 }
 
 TEST(Spline, GoesThroughItsPoints) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -30,7 +31,11 @@ TEST(MovingPlace, GivesLawsTheirDerivatives) {
   const std::shared_ptr<const Surface> spline = MakeSpline({{-2.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {3.0, 0.5}}, false);
   const std::shared_ptr<const Surface> plane = std::make_shared<HalfPlane>(Vector2d(0.0, -1.0), Vector2d(0.3, 1.0));
   std::vector<std::unique_ptr<const Law>> laws;
-  for (const std::shared_ptr<const Surface>& surface : {spline, plane})
+  const std::shared_ptr<const Surface> beside =
+                                           MakeSpline({{-2.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {3.0, 0.5}}, false, 0.4),
+                                       corners = MakePolyline({{-2.0, 0.2}, {0.1, 0.4}, {0.8, -0.1}}, false,
+                                                              std::vector<double>(3, 0.2), 0.4);
+  for (const std::shared_ptr<const Surface>& surface : {spline, plane, beside, corners})
     for (const MovingFrame& frame : {MovedFrame({0.0, 0.0}), MovedFrame({0.2, -0.1}, 0.7, {0.4, 0.3}), other})
       for (const FixedPoint& of : {point, node})
         for (const double radius : {0.0, 0.4})
@@ -57,6 +62,9 @@ TEST(MovingPlace, GivesLawsTheirDerivatives) {
   x << 0.3, 0.4, 0.2, 1.1, -0.5, 0.9, 1.4, 0.3;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const Law& law = *laws[i];
+    const auto* const pair = dynamic_cast<const ContactPair*>(&law);
+    const std::size_t motions =
+        pair != nullptr ? std::max<std::size_t>(law.NumPorts(), pair->FootPort() + 1) : law.NumPorts();
     const LawDofs dofs = law.Dofs(1);
     const auto at = [&](const VectorXd& q) {
       VectorXd moved = x;
@@ -70,7 +78,7 @@ TEST(MovingPlace, GivesLawsTheirDerivatives) {
     const PortReals forces = {0.7, law.NumPorts() > 1 ? -0.4 : 0.0};
     const LawVector v = random.Vector(q.size(), -1.0, 1.0);
     MatrixXd change = MatrixXd::Zero(q.size(), q.size());
-    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
+    for (std::size_t p = 0; p < motions; ++p) {
       SCOPED_TRACE(testing::Message() << "law " << i << ", port " << p);
       const auto motion = [&, p](const VectorXd& z) { return VectorXd::Constant(1, at(z)[p].motion); };
       const auto gradient = [&, p](const VectorXd& z) { return VectorXd(at(z)[p].gradient); };

@@ -37,7 +37,37 @@ Obstacle Disc(double x, double y, double radius, bool inside) {
 
 constexpr ObstacleShape kPolyline = ObstacleShape::kPolyline, kSpline = ObstacleShape::kSpline;
 
+// A disc about (0, 8) of this radius that may roll on the curve.
+void AddRolling(TraceRequest* request, double radius, const Obstacle& curve) {
+  request->scene.bodies = {{"disc", 0.0, 8.0}};
+  Obstacle rim = Disc(0.0, 8.0, radius, false);
+  rim.name = "rim";
+  rim.body = "disc";
+  request->scene.obstacles = {rim, curve};
+  request->scene.obstacles.back().name = "floor";
+  ContactCandidate contact;
+  contact.obstacles = {"rim", "floor"};
+  request->scene.contacts = {contact};
+}
+
+Obstacle Groove(ObstacleShape shape) {
+  Obstacle groove = CurveThrough(shape, {-9.0, 9.0, 0.0, 0.0, 9.0, 9.0});
+  if (shape == ObstacleShape::kPolyline) groove.fillet = 1.0;
+  return groove;
+}
+
 const BrokenRule kCurveRules[] = {
+    {"CircleThatDoesNotFitAFillet", [](auto& r) { AddRolling(&r, 1.0, Groove(kPolyline)); },
+     "scene.contacts[0].obstacles[0]", "rim",
+     "its radius 1 must be less than the fillet 1 of the hollow of floor at point 2: where it does not fit it touches "
+     "twice"},
+    {"CircleThatDoesNotFitASpline", [](auto& r) { AddRolling(&r, 3.5, Groove(kSpline)); },
+     "scene.contacts[0].obstacles[0]", "rim", "its radius 3.5 must be less than the radius of curvature 3"},
+    {"CircleInACurve",
+     [](auto& r) {
+       AddRolling(&r, 0.9, CurveThrough(kPolyline, {-9.0, 7.3, 0.0, 7.3, 9.0, 7.0}));
+     },
+     "scene.contacts[0]", "rim@floor", "the circle penetrates the obstacle at the start by 0.2"},
     {"CircleWithoutRadius", [](auto& r) { AddCurve(&r, Disc(0.0, 9.0, 0.0, false)); }, "scene.obstacles[0].radius", "0",
      "must be > 0 where the shape is circle"},
     {"OddNumberOfNumbers",

@@ -5,8 +5,9 @@
 namespace contact_path {
 
 // The ports of a contact: gap u_n with the normal reaction r_n, and xi, the surface coordinate, with the tangential
-// reaction r_t. Slip is the factor of the port times dxi.
-inline constexpr unsigned kNormal = 0, kTangent = 1;
+// reaction r_t. Slip is the factor of the port times dxi. Of a circle that rolls over patches, xi has the turn of the
+// circle in it; where its foot is on the patches is a motion without a force, behind the ports.
+inline constexpr unsigned kNormal = 0, kTangent = 1, kFoot = 2;
 
 // Limit::id of a contact.
 enum class ContactLimit {

@@ -77,6 +77,8 @@ class ContactPair : public Law {
   virtual bool Overrun(const Eigen::VectorXd& /*u*/, const Eigen::VectorXd& /*after*/, int /*patch*/) const {
     return false;
   }
+  // Whether a circle that touches on a patch has come upon another part of the surface.
+  virtual bool TouchesTwice(const Eigen::VectorXd& /*u*/, double /*s*/, int /*patch*/) const { return false; }
 
   // The value of xi from which stick and slip are measured at (u, s): xi itself, or xi_0 of the total law, on a closed
   // surface counted in the round in which xi_0 is nearest.
@@ -85,6 +87,9 @@ class ContactPair : public Law {
   double Slipped(const Eigen::VectorXd& u, double s, int patch) const;
   // xi, measured from 0.
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
+  // Where the foot is on the surface, as RangeOf() counts: xi, unless a circle rolls.
+  std::size_t FootPort() const { return surface_traits_.rolls ? kFoot : kTangent; }
+  double FootXi(const Eigen::VectorXd& u, double s, int patch) const;
 
   // The gap, 0 where it is closed by a tension.
   virtual double GapOnRecord(const Eigen::VectorXd& u, double s, int patch) const { return Gap(u, s, patch); }
@@ -99,9 +104,9 @@ class ContactPair : public Law {
   }
   double Reach(const Eigen::VectorXd& u, double s) const override { return Nearest(u, s).distance; }
   // Where two patches meet, slip leads to the patch ahead, and contacts that stick or are open keep their patch.
-  // Frictionless contacts, and contacts that slip by the total law of friction, may take either patch. Nothing slides
-  // over the end of an open surface. By the total law, the place of the node tells whether the contact sticks, and to
-  // which side it has slipped.
+  // Frictionless contacts, contacts that slip by the total law of friction and circles that roll may take either patch.
+  // Nothing slides over the end of an open surface. By the total law, the place of the node tells whether the contact
+  // sticks, and to which side it has slipped.
   Modes ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
                 const ActiveSetTolerance& tolerance) const override;
   void AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const override;
@@ -130,6 +135,7 @@ class ContactPair : public Law {
     std::optional<double> slip_origin;  // xi_0 of the total law
     double round = 0.0;                 // length of a closed surface
     bool deformable = false;
+    bool rolls = false;         // over patches: the foot moves whether the contact slides or not
     double compliance = 0.0;    // of ports that are held: scaled motion per force
     bool tangent_gives = true;  // whether it is that of the tangential port, too
     BroughtOn overlap;

@@ -21,17 +21,17 @@ struct Rolling {
 // gap(q) and xi(q) are the values of the surface at x(q), where the obstacle sees the node: derivatives by x come from
 // the projection (geometry/surface.h), those by q from the chain rule (structure/place.h). Of a flat surface and an
 // affine place everything but the values is constant. A circle is its centre on the surface on which centres move, and
-// its boundary moves along xi, besides, by its radius times the angle by which it turns there. Where friction changes
-// with the load factor, mu = mu_0 + rate s, the factor of port 1 is c = mu / mu_0, and its force is r_t / c, at most
-// mu_0 r_n: the equations are singular where a node sticks and c = 0. Two threads must not use the same pair at once.
+// its boundary moves along xi, besides, by its radius times the angle by which it turns there: patches end by its foot.
+// Where friction changes with the load factor, mu = mu_0 + rate s, the factor of port 1 is c = mu / mu_0, and its force
+// is r_t / c, at most mu_0 r_n: the equations are singular where a node sticks and c = 0. Two threads must not use the
+// same pair at once.
 class RigidPair : public ContactPair {
  public:
   // friction: mu, at s = 0; 0 where the node cannot slide (scene/surface.h).
   // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
   // slip_origin: of the total law of friction, the point from whose foot slip is measured, as the obstacle sees it
   // [length]; nothing: incremental law. compliance: of its ports, where reactions need not be determined without.
-  // rolls: of a circle, whose place is its centre; the surface then is that on which it moves, and has no ends of
-  // patches. friction_rate: d(mu)/ds.
+  // rolls: of a circle, whose place is its centre; the surface then is that on which it moves. friction_rate: d(mu)/ds.
   RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
             const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
             const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt, double compliance = 0.0,
@@ -44,6 +44,7 @@ class RigidPair : public ContactPair {
   int PatchAt(const Eigen::VectorXd& u, double s) const override;
   int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
   bool HasPatch(int patch) const override { return surface_->HasPatch(patch); }
+  bool TouchesTwice(const Eigen::VectorXd& u, double s, int patch) const override;
   XiRange RangeOf(int patch) const override { return RangeBeside(*surface_, patch); }
   void ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces, const LawVector& weights,
                     LawMatrix* hessian) const override;
@@ -71,6 +72,7 @@ class RigidPair : public ContactPair {
   std::shared_ptr<const Surface> surface_;
   MovingPlace place_;
   double share_rate_;  // dc/ds
+  double radius_;      // of a circle
   LawVector roll_;     // d(xi)/dq by the turn of a circle
   // Of a flat surface: offset + gradient . q.
   double gap_offset_ = 0.0, xi_offset_ = 0.0;

@@ -63,18 +63,21 @@ class ArcPiece : public CurvePiece {
   double sign_;  // of the curvature
 };
 
-// A cubic p(tau), tau from 0 to 1, that nowhere stands still. Prolonged, it is the same cubic: near to its ends alone
-// it is of use. Arc length is the integral of |dp/dtau| by Gauss quadrature, on so many parts that it is exact to
-// rounding.
+// A cubic p(tau), tau from 0 to 1, that nowhere stands still, or the curve at a distance on its left. Prolonged, it is
+// the same cubic: near to its ends alone it is of use. Arc length is the integral of |dp/dtau| by Gauss quadrature, on
+// so many parts that it is exact to rounding, less the distance times the turn to the left.
 class CubicPiece : public CurvePiece {
  public:
-  // p(tau) = begin + tau (first + tau (second + tau third)).
+  // p(tau) = begin + tau (first + tau (second + tau third)). distance: LargestCurvature() times it is less than 1.
   CubicPiece(const Eigen::Vector2d& begin, const Eigen::Vector2d& first, const Eigen::Vector2d& second,
-             const Eigen::Vector2d& third);
+             const Eigen::Vector2d& third, double distance = 0.0);
 
   XiRange Range() const override { return {0.0, lengths_.back()}; }
   Projection Project(const Eigen::Vector2d& x) const override;
   Eigen::Vector2d PointAt(double xi) const override;
+
+  // Of the cubic itself, in a hollow, from tau 0 to 1; 0: there is none.
+  double LargestCurvature() const;
 
  private:
   struct Derivatives {
@@ -83,12 +86,15 @@ class CubicPiece : public CurvePiece {
 
   Eigen::Vector2d Offset(double tau) const { return tau * (first_ + tau * (second_ + tau * third_)); }
   Derivatives At(double tau) const;
+  double CurvatureAt(double tau) const;           // of the cubic
+  double TurnOf(double from, double to) const;    // to the left, of less than half a round
   double Integral(double from, double to) const;  // of the speed
   void Divide(double from, double to, double integral, int depth);
   double ArcLength(double tau) const;
   double FootOf(const Eigen::Vector2d& from_begin) const;  // tau
 
   Eigen::Vector2d begin_, first_, second_, third_;
+  double distance_;
   double scale_ = 0.0;                            // [length]
   std::vector<double> taus_{0.0}, lengths_{0.0};  // where parts meet, and the arc length there
 };

@@ -38,7 +38,7 @@ struct LimitRule {
   };
   int id = 0;  // another one for each limit of a state
   Of of = Of::kMotion;
-  std::size_t port = 0;
+  std::size_t port = 0;  // of a motion; of a piece also one beyond the ports, whose motion has no force
   double sign = 1.0;
   double compliance = 0.0;  // of a rate: times the force, part of the motion; what a port gives way by is no slip
   PortReals weights{};
@@ -199,7 +199,7 @@ class Law {
     std::size_t num_ports = 1;
     LawDofs dofs;  // of all pieces, unless Dofs() is another function
     bool couples = false, compliant = false, elastic = false, curved = false, holonomic = false;
-    std::array<Terms, kMostPorts> moves{};
+    std::array<Terms, kMostPorts> moves{};  // also of motions without a force
     double force_unit = 1.0;
     double largest_ratio = 0.0;
     double largest_reach_rate = 1.0;

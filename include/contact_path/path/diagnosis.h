@@ -54,6 +54,10 @@ Causes BeyondHalfRound(const Model& model, const Residuals& residuals);
 // point of a path to the next; else empty.
 Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to);
 
+// Names a circle that has come upon a second part of the obstacle on which it rolls; else empty. point: where to look,
+// scaled.
+Causes TouchesTwice(const Model& model, const PathPoint& point);
+
 // Names a contact that stands at an end of its surface, over which no branch slides, and counts the others that do;
 // else empty.
 Causes StandsAtEnd(const Model& model, const PathPoint& point);

@@ -144,6 +144,10 @@ inline constexpr Sentence kHalfRound =
 inline constexpr Sentence kOverrun =
     "contact <name>: another part of the surface comes over the node while it touches, and contact with two parts of "
     "a surface at a time is not covered";
+inline constexpr Sentence kTouchesTwice =
+    "contact <name>: the circle comes upon another part of the obstacle while it touches, and what it touches twice "
+    "has "
+    "to be two obstacles";
 inline constexpr Sentence kBehindSurface =
     "contact <name>: the node has come past an end of the surface to <value> behind it";
 inline constexpr Sentence kBehindObstacle =

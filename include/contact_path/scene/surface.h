@@ -24,12 +24,13 @@ struct ShapeFault {
 ShapeFault FindShapeFault(const Obstacle& obstacle);
 
 // The surface of an obstacle without a fault. An obstacle is placed by its point (px, py). A surface that is not flat
-// has a finite length, so that it can be drawn.
-std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);
+// has a finite length, so that it can be drawn. radius: of a circle that rolls or slides on it [length]: the surface is
+// that on which its centre moves, at this distance. The circle fits: FindMisfit().
+std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle, double radius = 0.0);
 
-// The boundary on which the centre of a circle of this radius [length] moves that rolls or slides on a half plane or a
-// circle: at the distance of the radius.
-Obstacle WhereCentresMove(Obstacle obstacle, double radius);
+// Which rule a circle of this radius breaks, since it cannot reach the bottom of a hollow of the obstacle, which has no
+// fault; empty: it fits.
+std::string FindMisfit(const Obstacle& obstacle, double radius);
 
 // Whether a node can move along an obstacle: one of its components that move, being free or moved as a support, has a
 // share in the tangent by more than rounding. A contact that cannot slide is frictionless, whatever its coefficient.

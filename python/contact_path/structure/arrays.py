@@ -214,7 +214,7 @@ class Structure:
         normals = np.zeros((len(self.contacts), 2))  # of an eye: none
         for name in set(self.contact_obstacles) - {''}:
             own = np.flatnonzero(np.array(self.contact_obstacles) == name)
-            found, _ = self.obstacles[name].foot(placements[name].back(places[self.contact_nodes[own]]))
+            found, _ = self.obstacles[name].foot(placements[name].back(places[self.contact_nodes[own]]), self.contact_radii[own] > 0.0)
             normals[own] = placements[name].vectors(found)
         for name, surface in self.surfaces.items():
             own, touched = self.touched[name]

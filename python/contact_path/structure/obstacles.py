@@ -67,12 +67,13 @@ class Boundary:
     def outline(self) -> Outline:
         return self._outlines()[self._name]
 
-    def foot(self, places: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    def foot(self, places: np.ndarray, circles: Any = False) -> Tuple[np.ndarray, np.ndarray]:
         """Normals (n, 2) at the points of the boundary that are nearest to places (n, 2), and arc coordinates (n,) of these
-        points."""
+        points. circles (n,): which places are the centres of circles, for which the end of an open curve is a corner."""
         if self.flat:
             return np.tile(self.normal, (len(places), 1)), places.dot((self.normal[1], -self.normal[0]))
-        points, outline_normals, outline_xi, _ = self.outline
+        points, outline_normals, outline_xi, closed = self.outline
+        corners = np.broadcast_to(np.asarray(circles) & (not closed), len(places))
         edges = np.diff(points, axis=0)
         normals, xi = np.empty((len(places), 2)), np.empty(len(places))
         count = max(1, AT_ONCE // len(edges))
@@ -83,6 +84,8 @@ class Boundary:
             share = shares[np.arange(len(k)), k]
             xi[some] = outline_xi[k] + share * np.diff(outline_xi)[k]
             normals[some] = (1.0 - share[:, None]) * outline_normals[k] + share[:, None] * outline_normals[k + 1]
+            ends = corners[some] & ((k == 0) & (share == 0.0) | (k == len(edges) - 1) & (share == 1.0))
+            normals[some][ends] = (away[np.arange(len(k)), k] - share[:, None] * edges[k])[ends]
         return normals / np.hypot(*normals.T)[:, None], xi
 
     def slips(self, steps: np.ndarray) -> np.ndarray:
