@@ -42,6 +42,7 @@ struct MovedObstacle {
   Real friction = 0.0L;
   Real radius = 0.0L;                              // of a circle that rolls on it, about the node
   std::size_t circle = 0;                          // the body that carries it
+  bool has_corners = false;                        // for the circle, at the ends of a curve
   std::optional<std::size_t> body = std::nullopt;  // node; its reference point is `about` at the start
   std::size_t num_nodes = 0;                       // of the scene
   Real friction_rate = 0.0L;                       // per unit of the load factor
@@ -77,11 +78,12 @@ class ObstacleContact : public Contact {
   }
   // The point of a circle that touches goes along by its radius times the turn of the circle against the tangent.
   Real Slip(const PlacedState& from, const PlacedState& to) const override {
-    const Real along = Along(Position(from), Position(to));
+    const Vector begin = Position(from), end = Position(to);
+    const Real along = obstacle_.surface->Slip(begin, end);
     if (!Rolls()) return along;
     const Real of_circle =
         to.Rotation(obstacle_.circle) - from.Rotation(obstacle_.circle) - obstacle_.TurnAt(to) + obstacle_.TurnAt(from);
-    return along + obstacle_.radius * of_circle;
+    return along + obstacle_.radius * (of_circle - TurnOfTangent(begin, end));
   }
   std::optional<Real> TotalSlip(const PlacedState& state) const override {
     if (!slip_origin_) return std::nullopt;
@@ -124,15 +126,16 @@ class ObstacleContact : public Contact {
     if ((!gives_ && overlap_.at_0 == 0.0L) || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
     const Vector along{step * n.y, -step * n.x};
-    return Along(at, at + along) / Along(closed, closed + along);
+    // About an end the foot rests, and the way is that of the centre.
+    const auto way = [&](const Vector& from) {
+      const Real of_foot = obstacle_.surface->Slip(from, from + along);
+      return obstacle_.has_corners ? of_foot - obstacle_.radius * TurnOfTangent(from, from + along) : of_foot;
+    };
+    return way(at) / way(closed);
   }
-  // From one place of the node to another: of the point of a circle that does not turn. On a hollow the place goes a
-  // shorter way than the foot, round a corner a longer one, by the radius times the turn of the tangent.
-  Real Along(const Vector& begin, const Vector& end) const {
-    const Real of_foot = obstacle_.surface->Slip(begin, end);
-    if (!Rolls()) return of_foot;
+  Real TurnOfTangent(const Vector& begin, const Vector& end) const {
     const Vector before = obstacle_.surface->Normal(begin), after = obstacle_.surface->Normal(end);
-    return of_foot - obstacle_.radius * std::atan2(Cross(before, after), Dot(before, after));
+    return std::atan2(Cross(before, after), Dot(before, after));
   }
   Real Distance(const PlacedState& state) const { return obstacle_.surface->Gap(Position(state)) - obstacle_.radius; }
   bool Rolls() const { return obstacle_.radius > 0.0L; }
@@ -330,7 +333,9 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     if (!contact.obstacles.empty()) {
       const Obstacle& circle = *circles.at(contact.obstacles.front());
       partner.radius = circle.radius;
-      partner.surface = MakeSurface(*circles.at(contact.obstacle), true);
+      const Obstacle& touched = *circles.at(contact.obstacle);
+      partner.surface = MakeSurface(touched, true);
+      partner.has_corners = !touched.points.empty();
       partner.circle = numbers.at(circle.body);
     }
     partner.num_nodes = scene.nodes.size();
