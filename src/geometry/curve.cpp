@@ -118,7 +118,7 @@ double CubicPiece::LargestCurvature() const {
     else
       to -= third;
   }
-  return std::max(CurvatureAt(0.5 * (from + to)), 0.0);
+  return std::max({CurvatureAt(from), CurvatureAt(to), 0.0});
 }
 
 double CubicPiece::TurnOf(double from, double to) const {
