@@ -78,8 +78,9 @@ double FixedModeSystem::MotionValue(const Motion& motion, const Eigen::VectorXd&
 
 double FixedModeSystem::Value(const Limit& limit, const Eigen::VectorXd& x) const {
   const LimitRule& rule = RuleOf(limit);
-  if (!rule.OfForces()) return MotionValue(MotionOf(limit), x);
+  if (!rule.OfForces() && rule.compliance == 0.0) return MotionValue(MotionOf(limit), x);
   const PortReals forces = ForcesOf(static_cast<std::size_t>(limit.law), x);
+  if (!rule.OfForces()) return MotionValue(MotionOf(limit), x) + rule.sign * rule.compliance * forces[rule.port];
   double value = 0.0;
   for (std::size_t p = 0; p < forces.size(); ++p)
     if (rule.weights[p] != 0.0) value += rule.weights[p] * forces[p];

@@ -78,12 +78,19 @@ void FixedModeSystem::NumberEquations() {
   for (const std::size_t i : acting_)
     for (std::size_t p = 0; p < laws_[i].NumPorts(); ++p)
       if (const PortRule& port = laws_[i].In(modes_[i]).ports[p]; port.Holds())
-        motions_.push_back({{i, p}, next++, port.compliance});
+        motions_.push_back({{i, p}, next++, port.compliance, UnknownOf(i, p)});
   first_support_equation_ = next;
   next += static_cast<Eigen::Index>(structure_.PrescribedDofs().size());
   first_active_equation_ = next;
   for (const Limit& limit : active_) {
-    if (!RuleOf(limit).OfForces()) motions_.push_back({MotionOf(limit), next});
+    const LimitRule& rule = RuleOf(limit);
+    const auto i = static_cast<std::size_t>(limit.law);
+    if (rule.compliance != 0.0)  // the port follows the first one
+      motions_.push_back({MotionOf(limit), next,
+                          rule.sign * rule.compliance * laws_[i].In(modes_[i]).ports[rule.port].ratio,
+                          UnknownOf(i, 0)});
+    else if (!rule.OfForces())
+      motions_.push_back({MotionOf(limit), next});
     ++next;
   }
   num_equations_ = next + (load_factor_fixed_ ? 1 : 0);
@@ -145,7 +152,7 @@ void FixedModeSystem::ForEachConstantEntry(Emit emit) const {
     ++k;
   }
   for (const MotionEquation& of : motions_)
-    if (of.compliance != 0.0) emit(UnknownOf(of.motion.law, of.motion.port), of.equation, of.compliance);
+    if (of.compliance != 0.0) emit(of.force, of.equation, of.compliance);
   for (std::size_t c = 0; c < active_.size(); ++c) {
     const LimitRule& rule = RuleOf(active_[c]);
     if (!rule.OfForces()) continue;
@@ -239,7 +246,7 @@ void FixedModeSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residu
   }
   for (const MotionEquation& of : motions_) {
     (*residual)[of.equation] = MotionValue(of.motion, x);
-    if (of.compliance != 0.0) (*residual)[of.equation] += of.compliance * x[UnknownOf(of.motion.law, of.motion.port)];
+    if (of.compliance != 0.0) (*residual)[of.equation] += of.compliance * x[of.force];
   }
   Eigen::Index k = 0;
   for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
@@ -299,8 +306,8 @@ Eigen::VectorXd FixedModeSystem::Counted(const Eigen::VectorXd& change) const {
   }
   if (gives_)
     for (const MotionEquation& of : motions_)
-      if (of.compliance != 0.0 && !laws_[of.motion.law].Elastic())
-        counted[UnknownOf(of.motion.law, of.motion.port)] *= of.compliance;
+      if (of.equation < first_support_equation_ && of.compliance != 0.0 && !laws_[of.motion.law].Elastic())
+        counted[of.force] *= of.compliance;
   return counted;
 }
 

@@ -70,7 +70,8 @@ NearestPoint FindNearestPoint(FixedModeSystem* system, const Eigen::VectorXd& st
   limits.most = kMostIterations;
   limits.unit = system->ResidualUnit();
   const NewtonCourse course = NewtonLoop(
-      limits, true, next, [](const Eigen::VectorXd& dx) { return dx.norm(); }, &result.x, &step);
+      limits, true, next, [&](const Eigen::VectorXd& dx) { return system->Gives() ? system->Norm(dx) : dx.norm(); },
+      &result.x, &step);
   system->Residual(result.x, &residual);
   result.residual = system->Largest(residual);
   result.converged = course.at_rounding && result.residual <= tolerances::kStagnation;

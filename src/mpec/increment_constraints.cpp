@@ -12,14 +12,19 @@ void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* va
   values->resize(num_constraints_);
   for (const Slot& slot : slots_) {
     const PortsAt at = ScaledKinematics(slot, x);
+    for (std::size_t p = 0; p < slot.NumForces(); ++p)
+      at.AddForce(at[p].gradient, -x[slot.ForceOf(p)] * at[p].factor, &force);
+    if (slot.always) {
+      for (std::size_t p = 0; p < slot.NumForces(); ++p)
+        (*values)[slot.gap_row + static_cast<Eigen::Index>(p)] = at[p].motion;
+      continue;
+    }
     const double gap = at[kNormal].motion, rn = x[slot.rn];
-    at.AddForce(at[kNormal].gradient, -rn, &force);
     (*values)[slot.gap_row] = gap;
     (*values)[slot.gap_row + 1] = gap * rn;
-    if (slot.rt < 0) continue;
+    if (!slot.Frictional()) continue;
     const double slip = at[kTangent].motion, rt = x[slot.rt], lambda = x[slot.lambda];
     const double mu = slot.pair->Friction();
-    at.AddForce(at[kTangent].gradient, -rt * at[kTangent].factor, &force);
     values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
         lambda * mu * rn + slip * rt;
   }
@@ -40,17 +45,62 @@ void IncrementProblem::ForEachVariable(const Slot& slot, Visit visit) const {
 }
 
 template <typename Visit>
-void IncrementProblem::ForEachGapVariable(const Slot& slot, Visit visit) const {
+void IncrementProblem::ForEachVariableOf(const Slot& slot, std::size_t port, Visit visit) const {
   ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-    if (slot.law->Moves(kNormal, static_cast<std::size_t>(k))) visit(variable, k);
+    if (slot.law->Moves(port, static_cast<std::size_t>(k))) visit(variable, k);
   });
 }
 
-template <typename Visit>
-void IncrementProblem::ForEachXiVariable(const Slot& slot, Visit visit) const {
-  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-    if (slot.law->Moves(kTangent, static_cast<std::size_t>(k))) visit(variable, k);
+template <typename Emit>
+void IncrementProblem::ForEachGapEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, Emit emit) const {
+  const double rn = x[slot.rn];
+  ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
+    const double gradient = at[kNormal].gradient[k];
+    if (variable < structure_.NumDofs()) emit(variable, slot.rn, -at[kNormal].factor * gradient);
+    emit(slot.gap_row, variable, gradient);
+    emit(slot.gap_row + 1, variable, gradient * rn);
   });
+  emit(slot.gap_row + 1, slot.rn, at[kNormal].motion + slot.compliance[kNormal] * rn);
+  if (slot.compliance[kNormal] > 0.0) emit(slot.gap_row, slot.rn, slot.compliance[kNormal]);
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachHeldEntry(const Slot& slot, const PortsAt& at, Emit emit) const {
+  for (std::size_t p = 0; p < slot.NumForces(); ++p) {
+    const Eigen::Index force = slot.ForceOf(p), row = slot.gap_row + static_cast<Eigen::Index>(p);
+    ForEachVariableOf(slot, p, [&](Eigen::Index variable, Eigen::Index k) {
+      if (variable < structure_.NumDofs()) emit(variable, force, -at[p].factor * at[p].gradient[k]);
+      emit(row, variable, at[p].gradient[k]);
+    });
+    if (slot.compliance[p] > 0.0) emit(row, force, slot.compliance[p]);
+  }
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachFrictionEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                            Emit emit) const {
+  const double slip = at[kTangent].motion, rn = x[slot.rn], rt = x[slot.rt], lambda = x[slot.lambda];
+  const double mu = slot.pair->Friction(), gives = slot.compliance[kTangent];
+  ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
+    const double gradient = at[kTangent].gradient[k];
+    if (variable < structure_.NumDofs()) emit(variable, slot.rt, -at[kTangent].factor * gradient);
+    emit(slot.friction_row, variable, -gradient);
+    emit(slot.friction_row + 1, variable, gradient);
+    emit(slot.friction_row + 4, variable, gradient * rt);
+  });
+  if (gives > 0.0) {
+    emit(slot.friction_row, slot.rt, -gives);
+    emit(slot.friction_row + 1, slot.rt, gives);
+  }
+  emit(slot.friction_row, slot.lambda, 1.0);
+  emit(slot.friction_row + 1, slot.lambda, 1.0);
+  emit(slot.friction_row + 2, slot.rn, mu);
+  emit(slot.friction_row + 2, slot.rt, -1.0);
+  emit(slot.friction_row + 3, slot.rn, mu);
+  emit(slot.friction_row + 3, slot.rt, 1.0);
+  emit(slot.friction_row + 4, slot.lambda, mu * rn);
+  emit(slot.friction_row + 4, slot.rn, mu * lambda);
+  emit(slot.friction_row + 4, slot.rt, slip + gives * rt);
 }
 
 template <typename Emit>
@@ -63,45 +113,22 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
     if (structure_.ReferenceLoad()[row] != 0.0) emit(row, nd, -structure_.ReferenceLoad()[row]);
   for (const Slot& slot : slots_) {
     const PortsAt at = ScaledKinematics(slot, x);
-    const double rn = x[slot.rn];
-    ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-      const double gradient = at[kNormal].gradient[k];
-      if (variable < nd) emit(variable, slot.rn, -gradient);
-      emit(slot.gap_row, variable, gradient);
-      emit(slot.gap_row + 1, variable, gradient * rn);
-    });
-    emit(slot.gap_row + 1, slot.rn, at[kNormal].motion + slot.compliance * rn);
-    if (slot.compliance > 0.0) emit(slot.gap_row, slot.rn, slot.compliance);
+    if (slot.always)
+      ForEachHeldEntry(slot, at, emit);
+    else
+      ForEachGapEntry(slot, at, x, emit);
     if (slot.law->Curved()) {
       // r_n and r_t over S, and Hessians times S.
-      LawMatrix change = rn * at[kNormal].hessian;
+      LawMatrix change = (x[slot.rn] * at[kNormal].factor) * at[kNormal].hessian;
       if (slot.rt >= 0) change += (x[slot.rt] * at[kTangent].factor) * at[kTangent].hessian;
-      if (slot.rt >= 0 && slot.pair->Deformable())
+      if (slot.rt >= 0 && at[kTangent].factor_gradient.size() > 0)
         change += x[slot.rt] * at[kTangent].gradient * at[kTangent].factor_gradient.transpose();
       ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
         if (row == nd) return;
         ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) { emit(row, column, -change(a, b)); });
       });
     }
-    if (slot.rt < 0) continue;
-    const double slip = at[kTangent].motion, rt = x[slot.rt], lambda = x[slot.lambda];
-    const double mu = slot.pair->Friction();
-    ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-      const double gradient = at[kTangent].gradient[k];
-      if (variable < nd) emit(variable, slot.rt, -at[kTangent].factor * gradient);
-      emit(slot.friction_row, variable, -gradient);
-      emit(slot.friction_row + 1, variable, gradient);
-      emit(slot.friction_row + 4, variable, gradient * rt);
-    });
-    emit(slot.friction_row, slot.lambda, 1.0);
-    emit(slot.friction_row + 1, slot.lambda, 1.0);
-    emit(slot.friction_row + 2, slot.rn, mu);
-    emit(slot.friction_row + 2, slot.rt, -1.0);
-    emit(slot.friction_row + 3, slot.rn, mu);
-    emit(slot.friction_row + 3, slot.rt, 1.0);
-    emit(slot.friction_row + 4, slot.lambda, mu * rn);
-    emit(slot.friction_row + 4, slot.rn, mu * lambda);
-    emit(slot.friction_row + 4, slot.rt, slip);
+    if (slot.Frictional()) ForEachFrictionEntry(slot, at, x, emit);
   }
   for (const Support& support : supports_) {
     emit(support.prescribed->dof, support.reaction, -1.0);
@@ -123,15 +150,19 @@ void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double fact
   emit(nd, nd, factor * goal_.gamma2_factor);
   for (const Slot& slot : slots_) {
     const PortsAt at = ScaledKinematics(slot, x);
-    const double gap_product = multipliers[slot.gap_row + 1];
-    if (slot.compliance > 0.0) emit(slot.rn, slot.rn, 2.0 * slot.compliance * gap_product);
-    ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-      emit(slot.rn, variable, gap_product * at[kNormal].gradient[k]);
-    });
-    const double slip_product = slot.rt < 0 ? 0.0 : multipliers[slot.friction_row + 4];
-    if (slot.rt >= 0) {
+    const PortReals& gives = slot.compliance;
+    if (!slot.always) {
+      const double gap_product = multipliers[slot.gap_row + 1];
+      if (gives[kNormal] > 0.0) emit(slot.rn, slot.rn, 2.0 * gives[kNormal] * gap_product);
+      ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
+        emit(slot.rn, variable, gap_product * at[kNormal].gradient[k]);
+      });
+    }
+    if (slot.Frictional()) {
+      const double slip_product = multipliers[slot.friction_row + 4];
+      if (gives[kTangent] > 0.0) emit(slot.rt, slot.rt, 2.0 * gives[kTangent] * slip_product);
       emit(slot.lambda, slot.rn, slip_product * slot.pair->Friction());
-      ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+      ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
         emit(slot.rt, variable, slip_product * at[kTangent].gradient[k]);
       });
     }
@@ -144,20 +175,21 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const PortsAt& at
                                              const Eigen::VectorXd& multipliers, Emit emit) const {
   const Eigen::Index nd = structure_.NumDofs();
   const Law& law = *slot.law;
-  const bool frictional = slot.rt >= 0, deformable = slot.pair != nullptr && slot.pair->Deformable();
-  const double rn = x[slot.rn], rt = frictional ? x[slot.rt] : 0.0;
+  const bool frictional = slot.Frictional(), deformable = slot.pair != nullptr && slot.pair->Deformable();
+  const double rn = x[slot.rn], rt = slot.rt < 0 ? 0.0 : x[slot.rt];
   // The multipliers of the equilibrium equations; the multiplier of the load factor is none.
   const LawVector weights = at.Local(multipliers.head(nd), 0.0);
-  const LawVector by_rn = at[kNormal].hessian * weights;
-  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rn, variable, -by_rn[k]); });
-  double along_gap = multipliers[slot.gap_row] + multipliers[slot.gap_row + 1] * rn, along_xi = 0.0;
-  if (frictional) {
-    LawVector by_rt = at[kTangent].factor * (at[kTangent].hessian * weights);
-    if (deformable) by_rt += at[kTangent].gradient.dot(weights) * at[kTangent].factor_gradient;
-    ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rt, variable, -by_rt[k]); });
-    along_xi =
-        multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
+  for (std::size_t p = 0; p < slot.NumForces(); ++p) {
+    LawVector by_force = at[p].factor * (at[p].hessian * weights);
+    if (at[p].factor_gradient.size() > 0) by_force += at[p].gradient.dot(weights) * at[p].factor_gradient;
+    ForEachVariable(slot,
+                    [&](Eigen::Index variable, Eigen::Index k) { emit(slot.ForceOf(p), variable, -by_force[k]); });
   }
+  PortReals along_port = {multipliers[slot.gap_row], slot.always && slot.rt >= 0 ? multipliers[slot.gap_row + 1] : 0.0};
+  if (!slot.always) along_port[kNormal] += multipliers[slot.gap_row + 1] * rn;
+  if (frictional)
+    along_port[kTangent] =
+        multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
   LawMatrix second;
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
   const double s = from_.s + goal_.length * x[nd];
@@ -165,8 +197,8 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const PortsAt& at
   const LawDofs dofs = law.Dofs(patch);
   law.ForceHessian(u, s, patch, {rn, rt}, LocalOf(dofs, multipliers.head(nd), 0.0), &second);
   if (deformable) second = Spread(second, dofs, slot.dofs);
-  LawMatrix along = along_gap * at[kNormal].hessian;
-  if (frictional) along += along_xi * at[kTangent].hessian;
+  LawMatrix along = along_port[kNormal] * at[kNormal].hessian;
+  if (slot.rt >= 0) along += along_port[kTangent] * at[kTangent].hessian;
   second = along - goal_.length * goal_.length * second;
   ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
     ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) {

@@ -17,10 +17,10 @@ constexpr int kCentralSteps = 3;
 // inside.
 constexpr double kOutside = 1e-2, kLeastDistance = 1e-3;
 
-// The state in which no port has a force.
+// The state in which no port has a force; of a law that always acts, its state.
 int IdleState(const Law& law) {
   int state = 0;
-  while (!law.In(state).idle) ++state;
+  while (law.CanBeIdle() && !law.In(state).idle) ++state;
   return state;
 }
 
@@ -52,40 +52,12 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd + 1);  // T_t r_t^k, by (u, s)
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
     const auto number = static_cast<std::size_t>(working_set_[i]);
-    const Law& law = laws_[number];
-    const ContactPair* const pair = number < contacts_.size() ? contacts_[number].get() : nullptr;
-    const int held = pair != nullptr ? NumberOf(ContactState::kClosed) : law.AllHeld();
-    const int patch = law.Known(from_.u, from_.s, from_.modes[number]).piece;
-    PortsAt at_start;
-    law.Evaluate(from_.u, from_.s, patch, {}, &at_start);
-    const double reference = law.ReferenceAt(from_.u, from_.s, patch)[kTangent];
-    const Eigen::Index rn = nd + 1 + static_cast<Eigen::Index>(i);
-    Slot slot{&law,
-              pair,
-              laws_.FirstPort(number),
-              held,
-              law.In(held).ports[kNormal].compliance,
-              patch,
-              pair != nullptr && pair->Deformable() ? DofsBeside(*pair, patch) : law.Dofs(patch),
-              at_start,
-              reference,
-              rn,
-              -1,
-              -1,
-              num_constraints_,
-              -1};
-    num_constraints_ += 2;
-    if (pair != nullptr && pair->Frictional()) {
-      slot.rt = num_variables_++;
-      slot.lambda = num_variables_++;
-      slot.friction_row = num_constraints_;
-      num_constraints_ += 5;
-      const double rt = at_start[kTangent].factor * TangentialReaction(from_, number);
-      const LawVector& gradient = at_start[kTangent].gradient;
-      at_start.AddForce(gradient, rt, &drive);
-      drive[nd] += rt * gradient[gradient.size() - 1];  // the motion of the obstacle
-    }
-    slots_.push_back(slot);
+    const Slot& slot = AddSlot(number, nd + 1 + static_cast<Eigen::Index>(i));
+    if (!slot.Frictional()) continue;
+    const double rt = slot.at_start[kTangent].factor * TangentialReaction(from_, number);
+    const LawVector& gradient = slot.at_start[kTangent].gradient;
+    slot.at_start.AddForce(gradient, rt, &drive);
+    drive[nd] += rt * gradient[gradient.size() - 1];  // the motion of the obstacle
   }
   for (const PrescribedDof& prescribed : structure_.PrescribedDofs())
     supports_.push_back({&prescribed, num_variables_++, num_constraints_++});
@@ -96,34 +68,69 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   RecordStructures();
 }
 
+IncrementProblem::Slot& IncrementProblem::AddSlot(std::size_t number, Eigen::Index rn) {
+  const Law& law = laws_[number];
+  const ContactPair* const pair = number < contacts_.size() ? contacts_[number].get() : nullptr;
+  const Mode mode = law.Known(from_.u, from_.s, from_.modes[number]);
+  Slot slot;
+  slot.law = &law;
+  slot.pair = pair;
+  slot.port = laws_.FirstPort(number);
+  slot.held = pair != nullptr ? NumberOf(ContactState::kClosed) : law.AllHeld();
+  slot.always = !law.CanBeIdle();
+  slot.compliance = {};
+  for (std::size_t p = 0; p < law.NumPorts(); ++p) slot.compliance[p] = law.In(law.AllHeld()).ports[p].compliance;
+  slot.start_patch = mode.piece;
+  slot.dofs = pair != nullptr && pair->Deformable() ? DofsBeside(*pair, mode.piece) : law.Dofs(mode.piece);
+  law.Evaluate(from_.u, from_.s, mode.piece, {}, &slot.at_start);
+  slot.reference = law.ReferenceOf(from_.u, from_.s, mode, laws_.Of(from_.forces, number));
+  slot.rn = rn;
+  slot.rt = slot.lambda = slot.friction_row = -1;
+  slot.gap_row = num_constraints_;
+  if (slot.always) {
+    if (law.NumPorts() > 1) slot.rt = num_variables_++;
+    num_constraints_ += static_cast<Eigen::Index>(slot.NumForces());
+  } else {
+    num_constraints_ += 2;
+  }
+  if (pair != nullptr && pair->Frictional()) {
+    slot.rt = num_variables_++;
+    slot.lambda = num_variables_++;
+    slot.friction_row = num_constraints_;
+    num_constraints_ += 5;
+  }
+  slots_.push_back(slot);
+  return slots_.back();
+}
+
 PortsAt IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const {
   const Eigen::Index nd = structure_.NumDofs();
-  const double given = slot.compliance * x[slot.rn];
+  PortReals given{};
+  for (std::size_t p = 0; p < slot.NumForces(); ++p) given[p] = slot.compliance[p] * x[slot.ForceOf(p)];
   PortsAt at;
   if (!slot.law->Curved()) {
     at.dofs = slot.dofs;
-    at[kNormal].gradient = slot.at_start[kNormal].gradient;
-    at[kTangent].gradient = slot.at_start[kTangent].gradient;
-    at[kNormal].motion =
-        slot.at_start[kNormal].motion / goal_.length + at.Rate(at[kNormal].gradient, x.head(nd), x[nd]) + given;
-    at[kTangent].motion = (slot.at_start[kTangent].motion - slot.reference) / goal_.length +
-                          at.Rate(at[kTangent].gradient, x.head(nd), x[nd]);
+    for (std::size_t p = 0; p < slot.law->NumPorts(); ++p) {
+      at[p].gradient = slot.at_start[p].gradient;
+      at[p].motion = (slot.at_start[p].motion - slot.reference[p]) / goal_.length +
+                     at.Rate(at[p].gradient, x.head(nd), x[nd]) + given[p];
+    }
     return at;
   }
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
   const double s = from_.s + goal_.length * x[nd];
-  slot.law->Evaluate(u, s, PatchOf(slot, u, s), {0.0, slot.reference}, &at);
-  at[kNormal].motion = at[kNormal].motion / goal_.length + given;
-  at[kTangent].motion /= goal_.length;
-  at[kNormal].hessian *= goal_.length;
-  at[kTangent].hessian *= goal_.length;
-  if (slot.pair == nullptr || !slot.pair->Deformable()) return at;
-  at[kNormal].gradient = Spread(at[kNormal].gradient, at.dofs, slot.dofs);
-  at[kTangent].gradient = Spread(at[kTangent].gradient, at.dofs, slot.dofs);
-  at[kNormal].hessian = Spread(at[kNormal].hessian, at.dofs, slot.dofs);
-  at[kTangent].hessian = Spread(at[kTangent].hessian, at.dofs, slot.dofs);
-  at[kTangent].factor_gradient = goal_.length * Spread(at[kTangent].factor_gradient, at.dofs, slot.dofs);
-  at.dofs = slot.dofs;
+  slot.law->Evaluate(u, s, PatchOf(slot, u, s), slot.reference, &at);
+  const bool spreads = slot.pair != nullptr && slot.pair->Deformable();
+  for (std::size_t p = 0; p < slot.law->NumPorts(); ++p) {
+    at[p].motion = at[p].motion / goal_.length + given[p];
+    at[p].hessian *= goal_.length;
+    at[p].factor_gradient *= goal_.length;
+    if (!spreads) continue;
+    at[p].gradient = Spread(at[p].gradient, at.dofs, slot.dofs);
+    at[p].hessian = Spread(at[p].hessian, at.dofs, slot.dofs);
+    if (at[p].factor_gradient.size() > 0) at[p].factor_gradient = Spread(at[p].factor_gradient, at.dofs, slot.dofs);
+  }
+  if (spreads) at.dofs = slot.dofs;
   return at;
 }
 
@@ -140,7 +147,7 @@ Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y, const 
     x[slot.rn] = reactions.forces[slot.port + kNormal] / goal_.length;
     if (slot.rt < 0) continue;
     x[slot.rt] = reactions.forces[slot.port + kTangent] / goal_.length;
-    x[slot.lambda] = std::abs(ScaledKinematics(slot, x)[kTangent].motion);
+    if (slot.Frictional()) x[slot.lambda] = std::abs(ScaledKinematics(slot, x)[kTangent].motion);
   }
   Constraints(x, &values);
   for (const Support& support : supports_) x[support.reaction] = values[support.prescribed->dof];
@@ -151,11 +158,12 @@ std::vector<IncrementProblem::Zeros> IncrementProblem::ZerosAt(const PathPoint& 
   std::vector<Zeros> zeros;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
+    if (slot.always) continue;
     const Mode& mode = point.modes[static_cast<std::size_t>(working_set_[i])];
     const PortsAt at = ScaledKinematics(slot, x);
     const bool open = slot.law->In(mode).idle;
     if (!open) zeros.push_back({{slot.gap_row, x[slot.rn]}});
-    if (slot.rt < 0) {
+    if (!slot.Frictional()) {
       if (open) zeros.push_back({{num_constraints_ + slot.rn, at[kNormal].motion}});
       continue;
     }
@@ -183,7 +191,7 @@ std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point,
   Eigen::VectorXd& x = result.x;
   x = StartingPoint(Chord(from_, point) / goal_.length, point);
   for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (slots_[i].rt >= 0 && StateOf(point, static_cast<std::size_t>(working_set_[i])) == ContactState::kOpen)
+    if (slots_[i].Frictional() && StateOf(point, static_cast<std::size_t>(working_set_[i])) == ContactState::kOpen)
       x[slots_[i].lambda] += 1.0;  // which is free, but for being far from its bounds
 
   // The equations that hold there, with one row more: the multipliers of (9), and how far to move off.
@@ -245,6 +253,7 @@ std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point,
   }
   result.lower_multipliers = Eigen::VectorXd::Zero(num_variables_);
   for (const Slot& slot : slots_) {
+    if (slot.always) continue;
     if (!(x[slot.rn] > 0.0)) return std::nullopt;
     result.lower_multipliers[slot.rn] = barrier / x[slot.rn];
   }
@@ -262,12 +271,13 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
     const Slot& slot = slots_[i];
     point.forces[slot.port + kNormal] = goal_.length * x[slot.rn];
     if (slot.rt >= 0) point.forces[slot.port + kTangent] = goal_.length * x[slot.rt];
+    if (slot.always) continue;
     Mode& mode = point.modes[static_cast<std::size_t>(working_set_[i])];
     mode.piece = PatchOf(slot, point.u, point.s);
     const PortsAt at = ScaledKinematics(slot, x);
-    // What gives way is held where it gives way by more than the gap.
-    if (at[kNormal].motion > (slot.compliance > 0.0 ? slot.compliance : 1.0) * x[slot.rn]) continue;
-    if (slot.rt < 0) {
+    // What gives way by itself is held where it gives way by more than the gap.
+    if (at[kNormal].motion > (slot.law->Elastic() ? slot.compliance[kNormal] : 1.0) * x[slot.rn]) continue;
+    if (!slot.Frictional()) {
       mode.state = slot.held;
       continue;
     }
@@ -292,13 +302,15 @@ Eigen::VectorXd IncrementProblem::UnconstrainedMinimiser() const {
 
 Eigen::VectorXd IncrementProblem::VariableLowerBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Constant(num_variables_, -INFINITY);
-  for (const Slot& slot : slots_) bounds[slot.rn] = 0.0;
+  for (const Slot& slot : slots_)
+    if (!slot.always) bounds[slot.rn] = 0.0;
   return bounds;
 }
 
 Eigen::VectorXd IncrementProblem::ConstraintLowerBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
   for (const Slot& slot : slots_) {
+    if (slot.always) continue;
     bounds[slot.gap_row + 1] = -INFINITY;
     if (slot.friction_row >= 0) bounds[slot.friction_row + 4] = -INFINITY;
   }
@@ -308,6 +320,7 @@ Eigen::VectorXd IncrementProblem::ConstraintLowerBounds() const {
 Eigen::VectorXd IncrementProblem::ConstraintUpperBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
   for (const Slot& slot : slots_) {
+    if (slot.always) continue;
     bounds[slot.gap_row] = INFINITY;
     bounds[slot.gap_row + 1] = eps_;
     if (slot.friction_row < 0) continue;

@@ -53,6 +53,8 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
                                                                      from.u, from.s, from.modes[i].piece));
                                 }),
                  included.end());
+  for (std::size_t i = 0; i < laws_.size(); ++i)
+    if (!laws_[i].CanBeIdle()) included.insert(std::lower_bound(included.begin(), included.end(), i), i);
   for (;;) {
     const std::vector<int> working_set(included.begin(), included.end());
     IncrementTrial trial = SolveWith(from, working_set, goal, schedule, nullptr);

@@ -41,6 +41,12 @@ void FrictionEnds::AddTo(ArcTargets* targets) const {
   }
 }
 
+std::vector<double> FrictionEnds::LoadFactors() const {
+  std::vector<double> load_factors;
+  for (const FrictionEnd& end : ends_) load_factors.push_back(end.s);
+  return load_factors;
+}
+
 std::optional<Cause> FrictionEnds::At(const PathPoint& point) const {
   for (const FrictionEnd& end : ends_)
     if (point.s * end.s > 0.0 && std::abs(point.s) >= std::abs(end.s) - RoundingOf(end.s))

@@ -7,6 +7,7 @@
 
 #include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/equations/nearest_point.h"
+#include "contact_path/path/friction_end.h"
 #include "contact_path/path/model.h"
 #include "contact_path/tolerances.h"
 
@@ -38,6 +39,7 @@ constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 // Whether this law is about to change its state, so that the path may bend here by any angle.
 bool IsNearlyActive(const Laws& laws, const PathPoint& point, std::size_t i) {
   const Law& law = laws[i];
+  if (!law.CanBeIdle()) return false;
   const PortReals forces = laws.Of(point.forces, i);
   const double unit = law.ForceUnit();
   if ((law.In(point.modes[i]).idle ? law.Motion(kNormal, point.u, point.s, point.modes[i].piece, {})
@@ -218,8 +220,17 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
          Distance(second.increment.point, to) <= options_.corner_tolerance;
 }
 
+std::optional<double> MpecMethod::TargetBetween(const PathPoint& from, const PathPoint& to) const {
+  std::optional<double> nearest;
+  for (const double target : options_.targets)
+    if ((from.s - target) * (to.s - target) < 0.0 &&
+        (!nearest || std::abs(target - from.s) < std::abs(*nearest - from.s)))
+      nearest = target;
+  return nearest;
+}
+
 bool MpecMethod::MayMissTarget(const PathPoint& from, const PathPoint& to) const {
-  if (!options_.target || !started_) return false;
+  if (options_.targets.empty() || !started_) return false;
   // Rates of the load factor over arc length: chords of the last increment and of this one, and from them at the ends.
   const double length = Distance(from, to), chord = (to.s - from.s) / length;
   const double last_chord = direction_[direction_.size() - 1];
@@ -228,22 +239,23 @@ bool MpecMethod::MayMissTarget(const PathPoint& from, const PathPoint& to) const
   const bool turns = chord * last_chord < 0.0 || at_to * last_chord < kLevelling * at_from * last_chord;
   // No load factor of a concave arc, or of two straight ones, is larger.
   const double reached = from.s + last_chord * length;
-  return turns && (from.s - *options_.target) * (to.s - *options_.target) > 0.0 &&
-         (from.s - *options_.target) * (reached - *options_.target) < 0.0;
+  return turns && std::any_of(options_.targets.begin(), options_.targets.end(), [&](double target) {
+           return (from.s - target) * (to.s - target) > 0.0 && (from.s - target) * (reached - target) < 0.0;
+         });
 }
 
-bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
+bool MpecMethod::EndAtTarget(const PathPoint& from, double target, Trial* trial) const {
   // The contacts may change their states on either side of the target.
   const PathPoint to = trial->increment.point;
-  return EndAtTarget(from, to, trial) || EndAtTarget(from, from, trial);
+  return EndAtTarget(from, to, target, trial) || EndAtTarget(from, from, target, trial);
 }
 
-bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Trial* trial) const {
+bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, double target, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
   FixedModeSystem system(model_.structure, model_.laws);
   system.SetModes(modes.modes, model_.laws.ReferencesAt(from));
-  system.FixLoadFactor(*options_.target);
-  const double share = (*options_.target - from.s) / (to.s - from.s);
+  system.FixLoadFactor(target);
+  const double share = (target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
@@ -299,9 +311,9 @@ Advance MpecMethod::Next(const PathPoint& from) {
     if (trial.verdict == sentences::kAccepted && MayHaveCutCorner(model_.laws, from, to) &&
         !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
       trial.verdict = sentences::kNotConfirmed;
-    if (trial.verdict == sentences::kAccepted && options_.target &&
-        (from.s - *options_.target) * (to.s - *options_.target) < 0.0 && !EndAtTarget(from, &trial))
-      trial.verdict = sentences::kBeyondTarget;
+    if (trial.verdict == sentences::kAccepted)
+      if (const std::optional<double> target = TargetBetween(from, to); target && !EndAtTarget(from, *target, &trial))
+        trial.verdict = sentences::kBeyondTarget;
     if (trial.verdict == sentences::kAccepted && MayMissTarget(from, to)) trial.verdict = sentences::kBeyondTarget;
     if (trial.verdict == sentences::kCancelled || (cancelled_ && cancelled_())) {
       advance.end = {EndReason::kCancelled, {{sentences::kCancelled}}};
@@ -366,7 +378,8 @@ Advance MpecMethod::Next(const PathPoint& from) {
 
 std::unique_ptr<PathMethod> MakeMpecMethod(const MethodTask& task) {
   MpecOptions options = MpecOptions::For(task.options, AutomaticStepGrowth(task.model));
-  options.target = task.target;
+  options.targets = FrictionEnds(task.model).LoadFactors();
+  if (task.target) options.targets.push_back(*task.target);
   options.on_trial = task.control.on_trial;
   options.returns = task.returns;
   return std::make_unique<MpecMethod>(task.model, options, task.control.cancelled);

@@ -51,9 +51,6 @@ void CheckOptions(Checker* checker) {
     checker->Add(path.Key("at"), "", "must be empty with method mpec, which does not locate values");
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)
     checker->Add(path.Key("friction_law"), "total", "must be incremental with method mpec");
-  if (const std::vector<Node>& nodes = checker->GetScene().nodes;
-      !options.LocatesEvents() && std::any_of(nodes.begin(), nodes.end(), IsBody))
-    checker->Add(path.Key("method"), "mpec", "must be branch in a scene with rigid bodies");
   const std::vector<Tendon>& tendons = checker->GetScene().tendons;
   if (std::any_of(tendons.begin(), tendons.end(), [](const Tendon& tendon) { return tendon.IsPiece(); })) {
     if (!options.LocatesEvents())
@@ -61,13 +58,6 @@ void CheckOptions(Checker* checker) {
     if (options.friction_law == FrictionLaw::kTotal)
       checker->Add(path.Key("friction_law"), "total", "must be incremental where a tendon has friction");
   }
-  if (!options.LocatesEvents() && !checker->GetScene().pins.empty())
-    checker->Add(path.Key("method"), "mpec", "must be branch in a scene with pins");
-  const std::vector<Stage>& program = checker->Request().program;
-  if (!options.LocatesEvents() &&
-      (!checker->GetScene().friction_changes.empty() ||
-       std::any_of(program.begin(), program.end(), [](const Stage& stage) { return !stage.friction_changes.empty(); })))
-    checker->Add(path.Key("method"), "mpec", "must be branch where friction changes with the load factor");
   if (const std::vector<Obstacle>& obstacles = checker->GetScene().obstacles;
       options.friction_law == FrictionLaw::kTotal &&
       std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) { return !obstacle.body.empty(); }))

@@ -3,13 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "contact_path/contact/rigid_pair.h"
 #include "contact_path/contact/scene_contacts.h"
+#include "contact_path/law/pin_joint.h"
 #include "contact_path/law/slack_bar.h"
+#include "contact_path/scene/surface.h"
 #include "support/contact_points.h"
 #include "support/curved_contacts.h"
 #include "support/deformable_scene.h"
@@ -287,6 +293,77 @@ TEST(CompliantProblem, DerivativesMeetDifferences) {
     const bool taut = bar.Motion(0, point.u, point.s, 0, {}) <= 0.0;
     EXPECT_EQ(point.modes[1].state, NumberOf(taut ? BarState::kTaut : BarState::kSlack));
   }
+}
+
+// What turns with an unknown, and gives way where it touches: a node of it, its rim with friction that changes, and
+// pins.
+class GivingProblem : public testing::Test {
+ protected:
+  GivingProblem() {
+    scene_.nodes = {{"a", 0.0, 0.0}, {"b", 0.4, -0.3}};
+    scene_.superelements = {
+        {{"a", "b"}, {2.0, 0.2, 0.1, 0.3, 0.2, 1.0, 0.4, 0.1, 0.1, 0.4, 3.0, 0.2, 0.3, 0.1, 0.2, 1.5}}};
+    scene_.loads = {{"a", 1.0, 0.5}};
+    structure_ = std::make_unique<const Structure>(scene_);
+    const MovingFrame frame = {{Coordinate{0}, Coordinate{1}}, Coordinate{2}};
+    const FixedPoint tip = {frame, {0.3, -0.4}};
+    const Obstacle floor = {"floor", ObstacleShape::kHalfPlane, 0.0, -0.5, 0.1, 1.0, 0.3},
+                   drum = {"drum", ObstacleShape::kCircle, 0.2, 1.9, 0.0, 0.0, 0.4, 1.2};
+    contacts_.push_back(
+        std::make_unique<RigidPair>(MakeSurface(floor), MovingPlace(tip), 0.3, Eigen::VectorXd(), std::nullopt, 0.2));
+    contacts_.push_back(std::make_unique<RigidPair>(MakeSurface(drum), MovingPlace(FixedPoint{frame}), 0.4,
+                                                    Eigen::VectorXd(), std::nullopt, 0.3,
+                                                    Rolling{0.5, frame.angle, Coordinate{}}, 0.2));
+    laws_ = LawsOf(contacts_);
+    pins_.emplace_back(MovingPlace::Between(PointOfNode(2, 3), tip), Eigen::Vector2d(0.1, 0.2), 0.25);
+    pins_.emplace_back(MovingPlace::Between(PointOfNode(0, 1), PointOfNode(2, 3)), Eigen::Vector2d(0.4, -0.3), 0.0);
+    for (const PinJoint& pin : pins_) laws_.Add(&pin);
+    from_.u = structure_->Start();
+    from_.s = 0.1;
+    from_.forces = (Eigen::VectorXd(8) << 1.0, 0.2, 0.5, -0.1, -0.3, 0.4, 0.6, -0.7).finished();
+    from_.modes = ModesOf({ContactState::kStick, ContactState::kSlipPlus});
+    from_.modes.resize(4);
+  }
+
+  Scene scene_;
+  std::unique_ptr<const Structure> structure_;
+  ContactPairs contacts_;
+  std::deque<PinJoint> pins_;
+  Laws laws_;
+  PathPoint from_;
+};
+
+TEST_F(GivingProblem, DerivativesMeetDifferences) {
+  constexpr double kStep = 1e-2;
+  Random random(7);
+  const IncrementProblem problem(*structure_, contacts_, laws_, from_, {0, 1, 2, 3},
+                                 {0.05, random.Vector(5, -1.0, 1.0).normalized(), 0.3, 1.7});
+  EXPECT_EQ(problem.NumVariables(), 5 + 2 * 3 + 2 * 2);
+  EXPECT_EQ(problem.NumConstraints(), 4 + 2 * 7 + 2 * 2);
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
+    ExpectDerivatives(problem, x, random.Vector(problem.NumConstraints(), -1.0, 1.0), kStep);
+  }
+}
+
+// Equations have no other state, and forces of any sign; what has not moved gives way by no more than before.
+TEST_F(GivingProblem, StandingStillKeepsWhatGivesWay) {
+  const IncrementProblem problem(*structure_, contacts_, laws_, from_, {0, 1, 2, 3},
+                                 {0.05, Eigen::VectorXd::Unit(5, 4), 0.3, 1.7});
+  const Eigen::VectorXd start = problem.StartingPoint(Eigen::VectorXd::Zero(5)), values = ConstraintsOf(problem, start);
+  const Eigen::VectorXd lower = problem.ConstraintLowerBounds(), upper = problem.ConstraintUpperBounds();
+  for (const Eigen::Index row : {4, 11}) {  // gap, gap r_n, lambda -+ slip of both contacts
+    EXPECT_NEAR(values[row], 0.0, 10.0 * kRounding);
+    EXPECT_NEAR(values[row + 2], 0.0, 10.0 * kRounding);
+    EXPECT_NEAR(values[row + 3], 0.0, 10.0 * kRounding);
+  }
+  for (Eigen::Index row = 18; row < 22; ++row) EXPECT_TRUE(lower[row] == 0.0 && upper[row] == 0.0) << row;
+  const double tip = 0.3 * std::cos(0.4) + 0.4 * std::sin(0.4);            // turned by what is the unknown 2
+  EXPECT_NEAR(values[18], (tip - 0.4 - 0.1 + 0.25 * -0.3) / 0.05, 1e-12);  // x_1 - x_2 - (X_1 - X_2) + c r
+  EXPECT_EQ((problem.VariableLowerBounds().array() == 0.0).count(), 2);
+  const PathPoint point = problem.Point(start);
+  EXPECT_LE((point.forces - from_.forces).lpNorm<Eigen::Infinity>(), kRounding);
+  EXPECT_EQ(point.modes[2].state, 0);
 }
 
 TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {

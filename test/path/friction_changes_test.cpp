@@ -395,8 +395,6 @@ TEST(FrictionChanges, WhatIsNotSoundIsRefusedByName) {
        "scene.friction_changes[0].obstacle = wall: must be the obstacle of a contact"},
       {[](TraceRequest* r) { r->scene.loads.clear(); },
        "scene.loads = []: must have a load that presses a contact where friction alone changes"},
-      {[](TraceRequest* r) { r->options.method = Method::kMpec; },
-       "options.method = mpec: must be branch where friction changes with the load factor"},
       {[](TraceRequest* r) {
          r->scene.loads.push_back(OnNode("b", 1.0, 0.0, false));
          r->options.machine_stiffness = 1.0;

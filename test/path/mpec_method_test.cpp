@@ -66,18 +66,18 @@ TEST_F(SlidingBarMethod, GivesOneExactIncrementAtATime) {
 
 TEST_F(SlidingBarMethod, EndsAtTheTarget) {
   MpecOptions options = Options(0.05);
-  options.target = 0.112;
+  options.targets = {0.112};
   MpecMethod method(model_, options, nullptr);
   PathPoint point = model_.InitialPoint();
   int increments = 0;
-  while (point.s < *options.target) {
+  while (point.s < options.targets[0]) {
     const Advance advance = method.Next(point);
     ASSERT_EQ(advance.increments.size(), 1u);
     EXPECT_LE(advance.increments[0].residuals.Largest(), kRounding);
     point = advance.increments[0].point;
     ++increments;
   }
-  EXPECT_NEAR(point.s, *options.target, kRounding);
+  EXPECT_NEAR(point.s, options.targets[0], kRounding);
   EXPECT_GE(increments, 2);
 }
 
@@ -145,7 +145,7 @@ TEST_F(StickSlipCycle, DissipatesFrictionTimesTheWayInEveryCycle) {
   ASSERT_NEAR(model.scaling.load_factor, 1.0, 1e-14);
   Preload preload = TracePreload(model, 100, [](const Model& of, double target) {
     MpecOptions options = Options(0.1);
-    options.target = target;
+    options.targets = {target};
     return std::make_unique<MpecMethod>(of, options, nullptr);
   });
   ASSERT_TRUE(preload.done) << EndText(preload.end.causes);

@@ -1,16 +1,13 @@
 // Random scenes by Algorithm 3.2, against their exact paths.
 #include <gtest/gtest.h>
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "contact_path/scene/scaling.h"
 #include "support/curved_obstacles.h"
 #include "support/random_scene.h"
 #include "support/traced_path.h"
@@ -25,32 +22,6 @@ constexpr char kScenes[] = "CONTACT_PATH_MPEC_SCENES";          // how many, in 
 unsigned Seeds(unsigned few) {
   const char* const wanted = std::getenv(kScenes);
   return wanted == nullptr ? few : static_cast<unsigned>(std::stoul(wanted));
-}
-
-// Distance of an increment from the polygon of a path, in (u, s), scaled; *place: arc length there.
-double DistanceFromPath(const Increment& increment, const TracedPath& path, double* place) {
-  const Scaling scaling = CharacteristicScales(path.request.scene);
-  const auto point = [&scaling](const Increment& of) {
-    const auto size = static_cast<Eigen::Index>(of.positions.size());
-    Eigen::VectorXd x(size + 1);
-    x << Eigen::Map<const Eigen::VectorXd>(of.positions.data(), size) / scaling.length,
-        of.load_factor / scaling.load_factor;
-    return x;
-  };
-  const Eigen::VectorXd x = point(increment);
-  double nearest = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd a = point(path.increments[0]);
-  for (std::size_t i = 1; i < path.increments.size(); ++i) {
-    const Eigen::VectorXd b = point(path.increments[i]), edge = b - a;
-    const double share = edge.squaredNorm() > 0.0 ? std::clamp(edge.dot(x - a) / edge.squaredNorm(), 0.0, 1.0) : 0.0;
-    const double distance = (a + share * edge - x).norm();
-    if (distance < nearest) {
-      nearest = distance;
-      *place = path.increments[i].arc_length;
-    }
-    a = b;
-  }
-  return nearest;
 }
 
 // Increments follow the path: on it between events, next to it after one, as near as a corner may be cut.

@@ -511,14 +511,6 @@ TEST(Pins, AreRefusedByNameWhereTheyCannotBe) {
            of->scene.pins.push_back({{"nail", "hook"}});
          }),
          "one of the two nodes must be free to move");
-  expect(line([](TraceRequest* of) {
-           of->scene.bodies.clear();
-           for (Node& node : of->scene.nodes) node.body.clear();
-           of->scene.bars = {{{"top", "above"}, 1.0}};
-           of->scene.loads = {{"above", 1.0, 0.0}};
-           of->options.method = Method::kMpec;
-         }),
-         "options.method = mpec: must be branch in a scene with pins");
   // Written with few digits.
   EXPECT_EQ(line([](TraceRequest* of) { of->scene.nodes[1].x = 1e-10; }), "");
 }

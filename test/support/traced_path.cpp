@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -186,6 +187,32 @@ void ExpectSameEvents(const TracedPath& path, const TracedPath& other, double to
     EXPECT_EQ(ToString(others[i]->kind), ToString(events[i]->kind)) << i;
     EXPECT_NEAR(others[i]->load_factor, load, tolerance * std::max(1.0, std::abs(load))) << i;
   }
+}
+
+double DistanceFromPath(const Increment& increment, const TracedPath& path, double* place) {
+  const Scaling scaling = CharacteristicScales(path.request.scene);
+  const auto point = [&scaling](const Increment& of) {
+    const auto places = static_cast<Eigen::Index>(of.positions.size());
+    const auto turns = static_cast<Eigen::Index>(of.rotations.size());
+    Eigen::VectorXd x(places + turns + 1);
+    x << Eigen::Map<const Eigen::VectorXd>(of.positions.data(), places) / scaling.length,
+        Eigen::Map<const Eigen::VectorXd>(of.rotations.data(), turns), of.load_factor / scaling.load_factor;
+    return x;
+  };
+  const Eigen::VectorXd x = point(increment);
+  double nearest = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd a = point(path.increments[0]);
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    const Eigen::VectorXd b = point(path.increments[i]), edge = b - a;
+    const double share = edge.squaredNorm() > 0.0 ? std::clamp(edge.dot(x - a) / edge.squaredNorm(), 0.0, 1.0) : 0.0;
+    const double distance = (a + share * edge - x).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      *place = path.increments[i].arc_length;
+    }
+    a = b;
+  }
+  return nearest;
 }
 
 double EnergyImbalance(const TracedPath& path) {

@@ -59,6 +59,9 @@ std::vector<const Increment*> EventsOf(const TracedPath& path);
 // `tolerance`, relative where they are above 1.
 void ExpectSameEvents(const TracedPath& path, const TracedPath& other, double tolerance);
 
+// Distance of an increment from the polygon of a path, in (u, s), scaled; *place: arc length there.
+double DistanceFromPath(const Increment& increment, const TracedPath& path, double* place);
+
 // Largest |external work - change of energy - dissipation| over the characteristic energy.
 double EnergyImbalance(const TracedPath& path);
 

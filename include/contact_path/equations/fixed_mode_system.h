@@ -66,6 +66,8 @@ class FixedModeSystem : public ArcEquations {
   double Norm(const Eigen::VectorXd& change) const override {
     return structure_.ObliqueSupports().empty() && !gives_ ? change.norm() : Counted(change).norm();
   }
+  // Whether forces are told by small compliances alone.
+  bool Gives() const { return gives_; }
   // The pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x) override;
   bool Mixed() const override { return structure_.Mixed(); }
@@ -120,10 +122,11 @@ class FixedModeSystem : public ArcEquations {
     std::size_t law, port;
     double sign = 1.0, offset = 0.0;
   };
-  struct MotionEquation {  // motion + compliance * force of the port = 0
+  struct MotionEquation {  // motion + compliance * force = 0
     Motion motion;
     Eigen::Index equation;
     double compliance = 0.0;
+    Eigen::Index force = -1;  // unknown; -1 where nothing gives way
   };
 
   Eigen::Index UnknownOf(std::size_t law, std::size_t port) const {

@@ -24,20 +24,22 @@ struct IncrementGoal {
 
 // Variables, with dz = (du, ds) = S y and reactions over S:
 //   y (NumDofs() + 1), r_n / S by contact, then r_t / S and lambda / S by frictional contact, then the reactions of the
-//   prescribed components over S.
+//   prescribed components over S. A law that always acts has its first force among r_n / S, its second among r_t / S.
 // Objective, eq. (4) over gamma_2 S^2 at gamma2_factor 1:
 //   w g . y / |g| - (1 - w) direction . y + gamma2_factor |y|^2 / 2,   g . y = sum of r_t^k xi', by (u, s),
 // with gamma_1 and gamma_2 such that the unconstrained minimum is no longer than S for any w: neither one term nor all
 // terms together ask for more than the wanted length.
 // Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
 // mu r_n -+ r_t >= 0; lambda mu r_n + du_t r_t <= eps; prescribed components where they have to be. Frictionless
-// contacts have neither r_t nor lambda. A law of one port that gives way where it is held, as a bar that bears one
-// sense alone, is such a contact with the gap g + compliance r_n. By the total law of friction, xi - xi_0 at the end of
-// the increment takes the place of du_t in the constraints.
+// contacts have neither r_t nor lambda. A law of one port, as a bar that bears one sense alone, is such a contact.
+// Where ports that are held give way, gap and slip are those of the held ports: gap - reference + compliance r_n, and
+// xi - reference + compliance r_t. A law that always acts, of one or two ports, has such a motion = 0 for each, with
+// forces of any sign. By the total law of friction, xi - xi_0 at the end of the increment takes the place of du_t in
+// the constraints.
 class IncrementProblem : public NonlinearProgram {
  public:
-  // working_set: the laws that take part, ascending. laws: the contacts, then laws of one port. All arguments but the
-  // last two must outlive the problem.
+  // working_set: the laws that take part, ascending, with all that always act. laws: the contacts, then laws of one
+  // port and laws that always act. All arguments but the last two must outlive the problem.
   IncrementProblem(const Structure& structure, const ContactPairs& contacts, const Laws& laws, const PathPoint& from,
                    std::vector<int> working_set, IncrementGoal goal);
 
@@ -78,14 +80,19 @@ class IncrementProblem : public NonlinearProgram {
     const ContactPair* pair;      // the same, of a contact; else null
     Eigen::Index port;            // the first one, among those of all laws
     int held;                     // state in which the gap is zero and nothing slides
-    double compliance;            // of the gap in that state
+    bool always;                  // acts: there is no other state
+    PortReals compliance;         // of the ports, where all are held
     int start_patch;              // where the increment starts
     LawDofs dofs;                 // of the patches that it may end on
     PortsAt at_start;             // of the increment
-    double reference;             // value of xi from which slip is measured: ContactPair::SlipReference()
-    Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
-    Eigen::Index gap_row;         // constraints: gap, gap r_n
+    PortReals reference;          // from which motions are measured
+    Eigen::Index rn, rt, lambda;  // variables; -1: none
+    Eigen::Index gap_row;         // constraints: gap, gap r_n; motions of the ports of what always acts
     Eigen::Index friction_row;    // lambda - y_t, lambda + y_t, mu r_n - r_t, mu r_n + r_t, product; -1 if frictionless
+
+    bool Frictional() const { return lambda >= 0; }
+    Eigen::Index ForceOf(std::size_t of) const { return of == 0 ? rn : rt; }
+    std::size_t NumForces() const { return rt < 0 ? 1 : 2; }
   };
 
   struct Support {
@@ -101,18 +108,18 @@ class IncrementProblem : public NonlinearProgram {
   };
   using Zeros = std::vector<Zero>;  // of one product
   std::vector<Zeros> ZerosAt(const PathPoint& point, const Eigen::VectorXd& x) const;
-  // By y, r_n and the dofs of the slot: gap with what its compliance gives, and slip, over S; gradients as they are,
-  // Hessians and the gradient of the slip factor times S.
+  // Puts a slot with its variables and constraints behind the others. rn: its first variable.
+  Slot& AddSlot(std::size_t law, Eigen::Index rn);
+  // By y, forces and the dofs of the slot: motions with what compliances give, over S; gradients as they are, Hessians
+  // and gradients of factors times S.
   PortsAt ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;
   // Where the node is. The structure of the matrices is fixed: of a deformable surface, the next patches are prolonged.
   int PatchOf(const Slot& slot, const Eigen::VectorXd& u, double s) const;
-  // Calls visit(variable, k) for each variable that moves a pair, its gap, its xi; k: its number in the q of the slot.
+  // Calls visit(variable, k) for each variable that moves a law, a port of it; k: its number in the q of the slot.
   template <typename Visit>
   void ForEachVariable(const Slot& slot, Visit visit) const;
   template <typename Visit>
-  void ForEachGapVariable(const Slot& slot, Visit visit) const;
-  template <typename Visit>
-  void ForEachXiVariable(const Slot& slot, Visit visit) const;
+  void ForEachVariableOf(const Slot& slot, std::size_t port, Visit visit) const;
   void RecordStructures();
   // Calls emit(row, column, value) for each structural entry, in a fixed order.
   template <typename Emit>
@@ -120,7 +127,14 @@ class IncrementProblem : public NonlinearProgram {
   template <typename Emit>
   void ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                            Emit emit) const;
-  // What the curvature of a surface adds to the Hessian.
+  // Of the first port, its gap and product; of what always acts; of friction.
+  template <typename Emit>
+  void ForEachGapEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, Emit emit) const;
+  template <typename Emit>
+  void ForEachHeldEntry(const Slot& slot, const PortsAt& at, Emit emit) const;
+  template <typename Emit>
+  void ForEachFrictionEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, Emit emit) const;
+  // What the curvature of a law adds to the Hessian.
   template <typename Emit>
   void ForEachCurvatureEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
                              const Eigen::VectorXd& multipliers, Emit emit) const;

@@ -23,6 +23,8 @@ class FrictionEnds {
 
   // One for each of them.
   void AddTo(ArcTargets* targets) const;
+  // Scaled.
+  std::vector<double> LoadFactors() const;
   // The obstacle, and the load factor where its friction is 0. Nothing: the point is between these load factors.
   std::optional<Cause> At(const PathPoint& point) const;
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/mpec/increment_solver.h"
@@ -23,8 +24,8 @@ struct MpecOptions {
   // between them be no larger: it bounds how far the path is cut short at a corner.
   double corner_tolerance = 5e-4;
   RegularisationSchedule regularisation;
-  double direction = 1.0;        // sign of the first change of the load factor
-  std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
+  double direction = 1.0;       // sign of the first change of the load factor
+  std::vector<double> targets;  // load factors at which the path is to end, in an increment of its own
   TrialObserver on_trial = {};
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
 
@@ -65,12 +66,14 @@ class MpecMethod : public PathMethod {
   // For the first increment, which has no direction of a last increment: improves the direction until the increment is
   // as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
-  // Whether the load factor turns back on the increment, and may have been past the target and back.
+  // The target between both points that is nearest to `from`.
+  std::optional<double> TargetBetween(const PathPoint& from, const PathPoint& to) const;
+  // Whether the load factor turns back on the increment, and may have been past a target and back.
   bool MayMissTarget(const PathPoint& from, const PathPoint& to) const;
   // Replaces the point of a trial beyond the target by the exact point at the target, with the contact modes of the
   // trial or of `from`. False: there is no such point.
-  bool EndAtTarget(const PathPoint& from, Trial* trial) const;
-  bool EndAtTarget(const PathPoint& from, const PathPoint& modes, Trial* trial) const;
+  bool EndAtTarget(const PathPoint& from, double target, Trial* trial) const;
+  bool EndAtTarget(const PathPoint& from, const PathPoint& modes, double target, Trial* trial) const;
   // Where the path comes back to an earlier increment on the increment: its number, and the trial ends there.
   std::optional<int> EndAtReturn(const PathPoint& from, Trial* trial) const;
   bool ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length, const Trial& whole);

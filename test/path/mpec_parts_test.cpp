@@ -1,0 +1,291 @@
+// Bodies, pins and friction that changes by Algorithm 3.2: against closed forms, and against method branch at
+// equal values of one unknown.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/scaling.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path::mpec_parts_test {
+namespace {
+
+constexpr double kGives = 1e-7;   // contacts of bodies give way by 1e-8 of their forces, scaled
+constexpr double kCorner = 5e-4;  // what may be cut off at a corner, scaled
+constexpr double kTinyForce = 1e-6;
+
+TracedPath TraceByMpec(TraceRequest request) {
+  request.options.method = Method::kMpec;
+  request.options.at_limit = AtLimit::kFollow;
+  TracedPath path = TraceIncrements(request);
+  EXPECT_FALSE(path.increments.empty()) << path.result.message;
+  ExpectNoFindings(path);
+  for (const Increment& increment : path.increments) EXPECT_LE(increment.residuals.Largest(), 1e-9);
+  return path;
+}
+
+double LargestLoadOf(const TracedPath& path) { return path.increments[LargestLoad(path)].load_factor; }
+
+// Each increment is the point of the exact path with the same value of a quantity. cut: how far they may be apart
+// behind a corner, scaled.
+void ExpectPathOfBranch(const TracedPath& path, const std::string& quantity,
+                        const std::function<double(const Increment&)>& value, double cut = kGives) {
+  TraceRequest request = path.request;
+  request.options.method = Method::kBranch;
+  request.options.branch_rule = BranchRule::kForward;
+  request.options.stop.clear();
+  Samples samples;
+  samples.quantity = quantity;
+  for (std::size_t i = 1; i < path.increments.size(); ++i) samples.values.push_back(value(path.increments[i]));
+  request.options.at = {samples};
+  request.options.max_increments = 600;
+  const TracedPath exact = TraceIncrements(request);
+  const Scaling scaling = CharacteristicScales(Expand(request).request.scene);
+  std::size_t compared = 0;
+  double last = 0.0;  // value of the increment before
+  for (const Increment& increment : path.increments) {
+    const double at = value(increment);
+    const auto found = std::find_if(exact.increments.begin(), exact.increments.end(), [&](const Increment& of) {
+      return of.index > 0 && std::abs(value(of) - at) <= 1e-12 * (1.0 + std::abs(at));
+    });
+    if (increment.index == 0 || found == exact.increments.end()) continue;
+    ++compared;
+    for (std::size_t i = 0; i < increment.positions.size(); ++i)
+      EXPECT_NEAR(increment.positions[i] / scaling.length, found->positions[i] / scaling.length, cut)
+          << increment.index;
+    for (std::size_t i = 0; i < increment.rotations.size(); ++i)
+      EXPECT_NEAR(increment.rotations[i], found->rotations[i], cut) << increment.index;
+    EXPECT_NEAR(increment.load_factor / scaling.load_factor, found->load_factor / scaling.load_factor, cut)
+        << increment.index;
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+      const ContactRecord &of = increment.contacts[i], &other = found->contacts[i];
+      EXPECT_NEAR(of.rn / scaling.force, other.rn / scaling.force, 10.0 * cut) << increment.index << " contact " << i;
+      EXPECT_NEAR(of.rt / scaling.force, other.rt / scaling.force, 10.0 * cut) << increment.index << " contact " << i;
+      // The state is that of the way there, which may have had an event. At the edge of its cone a contact may slide by
+      // what it gives way by, and be said to stick.
+      if (found->kind == IncrementKind::kSample && at != last && other.rn > kTinyForce * scaling.force) {
+        EXPECT_TRUE(of.state == other.state || Slips(of.state) != Slips(other.state))
+            << increment.index << " contact " << i;
+      }
+    }
+    last = at;
+  }
+  EXPECT_GE(compared + 4, path.increments.size());
+}
+
+double LoadOf(const Increment& increment) { return increment.load_factor; }
+
+Load OnBody(const std::string& body, double fx, double fy, double moment, bool constant) {
+  Load load;
+  load.body = body;
+  load.fx = fx;
+  load.fy = fy;
+  load.moment = moment;
+  load.constant = constant;
+  return load;
+}
+
+Obstacle RimOf(const std::string& body, double x, double y, double radius, double friction) {
+  Obstacle rim;
+  rim.name = "rim_" + body;
+  rim.shape = ObstacleShape::kCircle;
+  rim.px = x;
+  rim.py = y;
+  rim.radius = radius;
+  rim.body = body;
+  rim.friction = friction;
+  return rim;
+}
+
+// A disc of the weight W in a right angle sticks up to M = mu sqrt(2) / (1 + mu^2) W R, and turns in place from there.
+TEST(MpecBodies, ADiscTurnsInARightAngle) {
+  for (const double radius : {1e-3, 200.0})
+    for (const auto& [friction, weight] : {std::pair(0.1, 1e-6), {0.8, 1e6}}) {
+      SCOPED_TRACE(testing::Message() << radius << ' ' << friction << ' ' << weight);
+      const double y = std::sqrt(2.0) * radius, limit = friction * std::sqrt(2.0) / (1.0 + friction * friction);
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "in_a_right_angle";
+      scene.bodies = {{"disc", 0.0, y}};
+      scene.obstacles = {RimOf("disc", 0.0, y, radius, 0.0),
+                         {"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 1.0, friction},
+                         {"right", ObstacleShape::kHalfPlane, 0.0, 0.0, -1.0, 1.0, friction}};
+      for (const char* on : {"left", "right"}) {
+        scene.contacts.emplace_back();
+        scene.contacts.back().obstacles = {"rim_disc", on};
+      }
+      scene.loads = {OnBody("disc", 0.0, -weight, 0.0, true), OnBody("disc", 0.0, 0.0, weight * radius, false)};
+      request.options.stop = {{"disc.rotation", ">", 0.3}};
+      request.options.step = 0.2;
+      const TracedPath path = TraceByMpec(request);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      EXPECT_NEAR(LargestLoadOf(path), limit, kGives);
+      int turned = 0;
+      for (const Increment& increment : path.increments) {
+        if (!(increment.rotations.back() > 0.01)) continue;
+        EXPECT_NEAR(increment.load_factor, limit, kGives);
+        for (const ContactRecord& contact : increment.contacts) EXPECT_TRUE(Slips(contact.state));
+        ++turned;
+      }
+      EXPECT_GE(turned, 2);
+    }
+}
+
+// A box of the weight 1 slides at mu where that is below b / (2 z), and tips at b / (2 z) otherwise.
+TEST(MpecBodies, ABoxSlidesOrTips) {
+  for (const double size : {1e-3, 1e3})
+    for (const auto& [friction, width] : {std::pair(0.2, 1.0), {0.8, 1.0}}) {
+      SCOPED_TRACE(testing::Message() << "size " << size << ", mu " << friction << ", width " << width);
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "box";
+      scene.bodies = {{"box", 0.0, size}};
+      scene.nodes = {{"a", -0.5 * width * size, 0.0}, {"b", 0.5 * width * size, 0.0}};
+      for (Node& node : scene.nodes) node.body = "box";
+      scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+      scene.contacts = {{"a", "floor"}, {"b", "floor"}};
+      scene.loads = {OnBody("box", 0.0, -1.0, 0.0, true), OnBody("box", 1.0, 0.0, 0.0, false)};
+      request.options.max_increments = 12;
+      request.options.step = 0.2;
+      EXPECT_NEAR(LargestLoadOf(TraceByMpec(request)), std::min(friction, 0.5 * width), kCorner);
+    }
+}
+
+TEST(MpecBodies, AHeldDiscAndALadderHaveThePathsOfBranch) {
+  for (const auto& [scene, limit, length, force] :
+       {std::tuple("held_disc", 0.4, 1e-3, 1e6), {"ladder", 0.8152173913, 1e3, 1e-6}}) {
+    SCOPED_TRACE(testing::Message() << scene << ", unit of length " << length);
+    TraceRequest request = ReadExample(scene);
+    request.options.step = 0.05;
+    request.options.max_increments = 40;
+    const TracedPath path = TraceByMpec(ChangeUnits(request, length, force));
+    EXPECT_NEAR(LargestLoadOf(path), limit, kCorner * 2.0);
+    TracedPath rising = path;
+    rising.increments.resize(LargestLoad(path));  // the corner is cut
+    ExpectPathOfBranch(rising, "load_factor", LoadOf);
+  }
+}
+
+TEST(MpecBodies, ThreeDiscsRollApart) {
+  TraceRequest request = ReadExample("three_discs");
+  request.options.step = 0.5;
+  request.options.max_increments = 40;
+  const TracedPath path = TraceByMpec(request);
+  const double rolls = 0.4 / (std::tan(M_PI / 12.0) - 0.2) - 1.0;
+  EXPECT_NEAR(LargestLoadOf(path), rolls, 3e-2);
+  TracedPath rising = path;
+  rising.increments.resize(LargestLoad(path));  // the corner is cut
+  ExpectPathOfBranch(rising, "load_factor", LoadOf);
+}
+
+// Rods that are pinned to each other and to both ends, with springs at the pins between, carry a load in the middle.
+TraceRequest PinnedChain(double size, double spring) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "pinned_chain";
+  constexpr int kRods = 3;
+  for (int i = 0; i <= kRods; ++i) {
+    const double x = size * i, y = i == 0 || i == kRods ? 0.0 : -0.2 * size;
+    if (i > 0) scene.nodes.push_back({"e" + std::to_string(i), x, y, false, false, false, "rod" + std::to_string(i)});
+    if (i < kRods)
+      scene.nodes.push_back({"s" + std::to_string(i), x, y, false, false, false, "rod" + std::to_string(i + 1)});
+  }
+  scene.nodes.push_back({"left", 0.0, 0.0, true, true});
+  scene.nodes.push_back({"right", kRods * size, 0.0, false, true});
+  for (int i = 0; i < kRods; ++i)
+    scene.bodies.push_back({"rod" + std::to_string(i + 1), size * (i + 0.5), i == 1 ? -0.2 * size : -0.1 * size});
+  scene.pins = {{{"s0", "left"}}, {{"e1", "s1"}, spring}, {{"e2", "s2"}, spring}, {{"e3", "right"}}};
+  const double holds = 3.0 * spring / (size * size);
+  scene.superelements = {{{"right"}, {holds, 0.0, 0.0, holds}}};
+  scene.loads = {OnBody("rod1", 0.0, -spring / size, 0.0, false),
+                 OnBody("rod3", 0.0, -0.7 * spring / size, 0.0, false)};
+  request.options.max_increments = 30;
+  return request;
+}
+
+TEST(MpecPins, AChainOnSpringsHasThePathOfBranch) {
+  for (const double size : {1e-3, 1.0, 1e3})
+    for (const double spring : {1e-3, 1.0, 1e3}) {
+      SCOPED_TRACE(testing::Message() << "size " << size << ", spring " << spring);
+      const TracedPath path = TraceByMpec(PinnedChain(size, spring));
+      EXPECT_EQ(path.increments.size(), 31U) << path.result.message;
+      ExpectPathOfBranch(path, "load_factor", LoadOf, 1e-9);
+    }
+}
+
+// Of a toggle clamp, pushed over its dead centre: the push is that of virtual work until its limit.
+TEST(MpecPins, AToggleIsPushedToItsLimit) {
+  TraceRequest request = ReadExample("toggle_clamp");
+  request.program.resize(1);
+  request.program[0].target = 1.2;
+  const TracedPath path = TraceByMpec(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Increment& increment : path.increments) {
+    const double a = std::asin(increment.positions[2]), d = std::max(0.0, 2.0 * std::cos(a) - 1.9);
+    EXPECT_NEAR(increment.load_factor, (80.0 * d * std::sin(a) + 0.8 * (0.5 - a)) / std::cos(a), kGives);
+  }
+}
+
+// A floor that moves by L takes a node along until k s = mu(s) N; then the node slides at the force mu(s) N.
+TEST(MpecFrictionChanges, ANodeBearsWhatFrictionIs) {
+  for (const auto& [length, force, load] : {std::tuple(1.0, 1.0, 1.0), {1e-3, 1e4, 1.0}, {250.0, 1e-5, 40.0}})
+    for (const double rate : {0.3, -0.25}) {
+      SCOPED_TRACE(testing::Message() << "length " << length << ", rate " << rate);
+      constexpr double kPress = 2.0, kSpring = 3.0, kFriction = 0.4;
+      const double k = kSpring * force / length;
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.name = "slider";
+      scene.nodes = {{"b", 0.0, 0.0}};
+      scene.superelements = {{{"b"}, {k, 0.0, 0.0, k}}};
+      scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, kFriction}};
+      scene.contacts = {{"b", "floor"}};
+      scene.loads = {{"b", 0.0, -kPress * force, true}};
+      scene.friction_changes = {{"floor", rate / load}};
+      scene.obstacle_motions = {{"floor", length / load, 0.0}};
+      request.options.step = 0.1;
+      request.options.max_increments = 400;
+      request.options.stop = {{"load_factor", ">", 3.0 * load}};
+      const TracedPath path = TraceByMpec(request);
+      const double grips = kFriction * kPress / (kSpring - rate * kPress);
+      int slid = 0;
+      for (const Increment& increment : path.increments) {
+        const double s = increment.load_factor / load, mu = kFriction + rate * s;
+        const double bears = s < grips ? kSpring * s : mu * kPress;
+        EXPECT_NEAR(increment.contacts[0].rt / force, bears, Slips(increment.contacts[0].state) ? 1e-9 : 3.0 * kCorner);
+        EXPECT_NEAR(increment.positions[0] / length, bears / kSpring, kCorner);
+        slid += Slips(increment.contacts[0].state) ? 1 : 0;
+      }
+      EXPECT_GT(slid, 5);
+      if (rate > 0.0) {
+        EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+        continue;
+      }
+      EXPECT_EQ(path.result.reason, EndReason::kPathEnd) << path.result.message;
+      EXPECT_NEAR(path.increments.back().load_factor / load, -kFriction / rate, 2e-6 * kFriction / -rate);
+    }
+}
+
+// Legs that are pinned together slide apart on a floor that becomes slippery, and friction has to come back.
+TEST(MpecFrictionChanges, AStepLadderSlidesApart) {
+  const TracedPath path = TraceByMpec(ReadExample("step_ladder"));
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_NEAR(LargestLoadOf(path), 0.8 - 0.66 / 0.76 / 3.0, 2.0 * kCorner);
+  int slides = 0;
+  for (const Increment& increment : path.increments) {
+    if (!Slips(increment.contacts[1].state)) continue;
+    ++slides;
+    const double b = 0.5 * (increment.positions[4] - increment.positions[0]);
+    EXPECT_NEAR(increment.load_factor, 0.8 - 0.66 / 0.76 * b / std::sqrt(2.5 - b * b), kGives) << increment.index;
+  }
+  EXPECT_GT(slides, 10);
+}
+
+}  // namespace
+}  // namespace contact_path::mpec_parts_test
