@@ -20,6 +20,12 @@ double DrivingForce(const Model& model, const PathPoint& point) {
   return system.DrivingForceAlong(x, still, still).value;
 }
 
+double FactorOf(const Law& law, std::size_t port, const PathPoint& point, std::size_t number) {
+  PortsAt at;
+  law.Evaluate(point.u, point.s, point.modes[number].piece, {}, &at);
+  return at[port].factor;
+}
+
 }  // namespace
 
 Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint& to) {
@@ -33,11 +39,16 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
       if (!state.ports[p].Follows() && !law.Holonomic()) continue;
       const Eigen::Index port = leading + static_cast<Eigen::Index>(p);
       const double travel = law.Travel(p, from.u, from.s, from.modes[i].piece, du, to.s - from.s, to.modes[i].piece);
-      if (law.Holonomic())
+      if (law.Holonomic()) {
         work.friction -= 0.5 * (from.forces[port] + to.forces[port]) * travel;
-      else
-        work.friction +=
-            std::abs(state.ports[p].ratio) * (0.5 * (from.forces[leading] + to.forces[leading])) * std::abs(travel);
+        continue;
+      }
+      // The factor is one of the motion where a surface stretches, and otherwise one of the force.
+      const bool stretches = i < model.contacts.size() && model.contacts[i]->Deformable();
+      const double first = stretches ? 1.0 : FactorOf(law, p, from, i),
+                   last = stretches ? 1.0 : FactorOf(law, p, to, i);
+      const double leads = (first * from.forces[leading] + last * to.forces[leading]) / (first + last);
+      work.friction += std::abs(state.ports[p].ratio) * leads * std::abs(travel);
     }
   }
   const Structure& structure = model.structure;

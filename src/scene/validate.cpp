@@ -52,12 +52,9 @@ void CheckOptions(Checker* checker) {
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)
     checker->Add(path.Key("friction_law"), "total", "must be incremental with method mpec");
   const std::vector<Tendon>& tendons = checker->GetScene().tendons;
-  if (std::any_of(tendons.begin(), tendons.end(), [](const Tendon& tendon) { return tendon.IsPiece(); })) {
-    if (!options.LocatesEvents())
-      checker->Add(path.Key("method"), "mpec", "must be branch in a scene with a tendon that has friction");
-    if (options.friction_law == FrictionLaw::kTotal)
-      checker->Add(path.Key("friction_law"), "total", "must be incremental where a tendon has friction");
-  }
+  if (options.friction_law == FrictionLaw::kTotal &&
+      std::any_of(tendons.begin(), tendons.end(), [](const Tendon& tendon) { return tendon.IsPiece(); }))
+    checker->Add(path.Key("friction_law"), "total", "must be incremental where a tendon has friction");
   if (const std::vector<Obstacle>& obstacles = checker->GetScene().obstacles;
       options.friction_law == FrictionLaw::kTotal &&
       std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) { return !obstacle.body.empty(); }))

@@ -1,4 +1,4 @@
-// Bodies, pins and friction that changes by Algorithm 3.2: against closed forms, and against method branch at
+// Bodies, pins, friction that changes and eyes by Algorithm 3.2: against closed forms, and against method branch at
 // equal values of one unknown.
 #include <gtest/gtest.h>
 
@@ -285,6 +285,52 @@ TEST(MpecFrictionChanges, AStepLadderSlidesApart) {
     EXPECT_NEAR(increment.load_factor, 0.8 - 0.66 / 0.76 * b / std::sqrt(2.5 - b * b), kGives) << increment.index;
   }
   EXPECT_GT(slides, 10);
+}
+
+// Drawn round an eye, the tensions differ by exp(mu turn); let go, the tendon sticks down to exp(-2 mu turn) of the
+// force.
+TEST(MpecEyes, TheTensionsDifferByTheCapstanFactor) {
+  for (const auto& [turn, friction, EA] : {std::tuple(0.5 * M_PI, 0.3, 20.0), {3.0, 0.1, 1e3}, {0.5, 1.0, 20.0}}) {
+    SCOPED_TRACE(testing::Message() << "turn " << turn << " friction " << friction << " EA " << EA);
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "drawn_cord";
+    const double c = std::cos(turn), s = std::sin(turn);
+    scene.nodes = {{"end", -1.0, 0.0, true, true}, {"eye", 0.0, 0.0, true, true}, {"drawn", c, -s}};
+    scene.superelements = {{{"drawn"}, {s * s, s * c, s * c, c * c}}};
+    Tendon cord;
+    cord.name = "cord";
+    cord.nodes = {"end", "eye", "drawn"};
+    cord.EA = EA;
+    cord.friction = friction;
+    scene.tendons = {cord};
+    Stage pull, let_go;
+    pull.name = "pull";
+    pull.loads = {{"drawn", c, -s}};
+    let_go.name = "let_go";
+    let_go.loads = {{"drawn", -c, s}};
+    let_go.target = 0.9;
+    request.program = {pull, let_go};
+    request.options.record = {"sections"};
+    request.options.step = 0.05;
+    const TracedPath path = TraceByMpec(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const double factor = std::exp(friction * turn);
+    int slides = 0, back = 0;
+    for (const Increment& increment : path.increments) {
+      const double before = increment.sections[0].N, behind = increment.sections[1].N;
+      if (increment.contacts[0].state == ContactState::kSlipPlus) {
+        EXPECT_NEAR(behind / factor, before, 2e-8);
+        ++slides;
+      } else if (increment.contacts[0].state == ContactState::kSlipMinus) {
+        EXPECT_NEAR(behind, before / factor, 2e-8);
+        EXPECT_LE(behind, 1.0 / (factor * factor) + 2.0 * kCorner);
+        ++back;
+      }
+    }
+    EXPECT_GT(slides, 2);
+    EXPECT_GT(back, 0);
+  }
 }
 
 }  // namespace
