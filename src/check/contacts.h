@@ -49,6 +49,8 @@ class Contact {
   virtual Real FrictionIn(const PlacedState&) const { return friction_; }
   // What works along the slip over r_t.
   virtual Real Stretch(Real /*rn*/) const { return 1.0L; }
+  // r_n, where the place alone tells it, as at an eye.
+  virtual std::optional<Real> NormalByPlace(const PlacedState&) const { return std::nullopt; }
   // What a contact that gives way along t does so to: r_t over the share that is left of its friction.
   Real GivesTo(const PlacedState& state, Real rt) const {
     const Real now = FrictionIn(state);

@@ -122,6 +122,11 @@ double ResidualCheck::SlidingForce(std::size_t contact, const CheckedState& stat
   return Friction(contact, state) * rn * static_cast<double>(of.Stretch(rn));
 }
 
+std::optional<double> ResidualCheck::NormalByPlace(std::size_t contact, const CheckedState& state) const {
+  const std::optional<Real> normal = prepared_->contacts[contact]->NormalByPlace(prepared_->Placed(state));
+  return normal ? std::optional(static_cast<double>(*normal)) : std::nullopt;
+}
+
 double ResidualCheck::GivesTo(std::size_t contact, const CheckedState& state) const {
   return static_cast<double>(prepared_->contacts[contact]->GivesTo(prepared_->Placed(state), state.rt[contact]));
 }

@@ -230,10 +230,13 @@ class EyeContact : public Contact {
     (*forces)[2 * Node()] += factor * rt * Stretch(rn);
   }
   Real Stretch(Real rn) const override { return 1.0L + 0.5L * rn / before_.EA(); }
+  std::optional<Real> NormalByPlace(const PlacedState& state) const override {
+    const std::vector<double> values = state.Values();
+    return before_.SignedTension(values) + behind_.SignedTension(values);
+  }
   OnNode ForceOnNode(const PlacedState&, Real, Real) const override { return {}; }
   Real Imbalance(const PlacedState& state, Real rn, Real, Real) const override {
-    const std::vector<double> values = state.Values();
-    return std::abs(rn - before_.SignedTension(values) - behind_.SignedTension(values));
+    return std::abs(rn - *NormalByPlace(state));
   }
 
  private:

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/verify/verify_path.h"
+#include "verify/differences.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {
@@ -155,9 +155,8 @@ class IntegralChecks {
   bool balanced_ = true;   // so far
 };
 
-// Of regular increments of structures of up to 400 components whose contacts are open, or stick to obstacles: such a
-// contact is a pin, and an equilibrium is stable if the stiffness of all other components is positive definite. Where
-// contacts slip, or touch surfaces that deform, and in scenes with pins, the verdict is not looked at.
+// Of regular increments of structures of up to 400 components: the verdict from the eigenvalues of the stiffness of the
+// motions that contacts, pins and eyes leave, and from what slides.
 class StabilityChecks {
  public:
   // All must outlive the checks.
@@ -166,28 +165,15 @@ class StabilityChecks {
   void Check(const Increment& increment, double machine_stiffness);
 
  private:
-  // Components that are free at the increment, as CheckedState has them, then rotations; nothing where it is not
-  // covered.
-  std::optional<std::vector<std::size_t>> FreeComponents(const Increment& increment) const;
-  // Of Unbalance() by components that move together, each by its own motion; the number of all components: the load
-  // factor. step: to either side, over the unit of the component.
-  struct Change {
-    Eigen::VectorXd forces;
-    std::vector<double> motions;
-  };
-  Change ChangeBy(const Increment& increment, const std::vector<std::size_t>& components, double step) const;
-  std::size_t NodeOf(std::size_t component) const;
-  // Nodes on whose forces a node has an influence, and groups of nodes that have none on the same.
-  void FindCouplings(const Increment& increment, double step);
-  Eigen::MatrixXd Stiffness(const Increment& increment, const std::vector<std::size_t>& components, double step) const;
+  void CheckDirection(const Increment& increment, const DisturbedIncrement& found, const FreeMotions& dead);
+  // The verdict under the machine, and the stiffness of the one that just holds.
+  void CheckMachine(const Increment& increment, const DisturbedIncrement& found, const FreeMotions& dead,
+                    double machine_stiffness);
 
   const VerifiedStage& stage_;
   Findings& findings_;
   Verification& result_;
-  std::vector<bool> of_surfaces_;  // by candidate: what it touches deforms
-  std::vector<std::set<std::size_t>> coupled_;
-  std::vector<std::vector<std::size_t>> groups_;
-  std::vector<BarState> bars_of_groups_;  // slack ones couple nothing
+  Differences differences_;
 };
 
 }  // namespace contact_path

@@ -6,13 +6,14 @@ Usage: random_bodies.py TRACE VERIFY DIRECTORY [--seeds FROM:TO]
 TRACE and VERIFY are contact_path_trace and verify. Each seed is the same scene on every machine: a box, a disc, both, a body in a sling,
 a fin that presses a disc, or a rope through two eyes on springs; tendons of even seeds have friction at their eyes, those of every
 third seed rollers in place of them. Each path is verified from its bag, and the scene is traced again in other units, mirrored, with its lists in another order, and with another step: kinds and
-load factors of events must be the same to 1e-6. A line is printed for each path that ends by a fault of the tracer, each that is not
+load factors of events must be the same to 1e-6. Told is how many verdicts of stability were found anew. A line is printed for each path that ends by a fault of the tracer, each that is not
 proved, and each that differs. Exit status 0 only if none is not proved or differs.
 """
 import argparse
 import csv
 import os
 import random
+import re
 import subprocess
 import sys
 
@@ -179,6 +180,7 @@ def main():
     first, last = map(int, arguments.seeds.split(':'))
     os.makedirs(arguments.directory, exist_ok=True)
     counts = {'faults': 0, 'not proved': 0, 'differ': 0}
+    verdicts = [0, 0]  # found anew, not checked
 
     def tell(seed, what, text):
         counts[what] += 1
@@ -191,6 +193,8 @@ def main():
         if not end.startswith(PROPER_ENDS):
             tell(seed, 'faults', end)
         verdict = subprocess.run(['timeout', LONGEST, arguments.verify, path + '.bag'], capture_output=True, text=True).stdout
+        for number in re.findall(r'stability: (\d+) found anew, (\d+) not checked', verdict):
+            verdicts = [sum(pair) for pair in zip(verdicts, map(int, number))]
         if count > 0 and '\nproved' not in verdict:
             tell(seed, 'not proved', next((line for line in verdict.split('\n') if line.startswith('increment ')), verdict[-200:]))
         for words, other in (('units', variants.in_units(request, 1e-3, 1e6)), ('mirrored', variants.mirrored(request)),
@@ -200,7 +204,8 @@ def main():
             cut = max(count, other_count) >= 60
             if differ(events, others) or (not cut and len(events) != len(others)):
                 tell(seed, 'differ', '%s: %s, %s' % (words, events, others))
-    print('%d scenes: ' % (last - first) + ', '.join('%d %s' % (number, what) for what, number in counts.items()))
+    print('%d scenes: ' % (last - first) + ', '.join('%d %s' % (number, what) for what, number in counts.items()) +
+          '; verdicts of stability: %d found anew, %d not checked' % tuple(verdicts))
     return 1 if counts['not proved'] or counts['differ'] else 0
 
 

@@ -51,10 +51,10 @@ struct Verification {
 // change only at events, the load factor turns at limit points and only there, and the branch taken at an event is the
 // one that follows; stages follow each other at their targets, in the same state. Over a jump: the balance of energies
 // with what was released, and the work of the loads under the machine, to 1e-9; no law of friction between its ends.
-// Verdicts of stability of structures of up to 400 components whose contacts do not slip. A contact that pulls with
-// more than 0.02 of the largest reaction so far is a finding, however small both are. Where nothing of all that is
-// found, events and signs are looked at (VerifyEvents()). Not checked: rates of branches that were not taken, verdicts
-// where contacts slip, landing_robust, counters and times.
+// Verdicts of stability of structures of up to 400 components (method.md). A contact that pulls with more than 0.02 of
+// the largest reaction so far is a finding, however small both are. Where nothing of all that is found, events and
+// signs are looked at (VerifyEvents()). Not checked: rates of branches that were not taken, landing_robust, counters
+// and times.
 //
 // before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,
