@@ -167,6 +167,7 @@ contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_t
   surface_scenes_test tendons_test total_law_test trace_test)
 contact_path_add_stage(study NAMES path_column_test study_outputs_test)
 contact_path_add_stage(verify LONG SHARDS 2 NAMES verdicts_test verify_end_test verify_events_test verify_path_test)
+target_include_directories(verify_tests PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 contact_path_add_stage(cli NAMES event_table_test progress_test)
 target_link_libraries(cli_tests contact_path_terminal)
 # What scripts/stress writes docs/maintainers/extremes.md with.

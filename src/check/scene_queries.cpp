@@ -116,13 +116,14 @@ double ResidualCheck::Friction(std::size_t contact, const CheckedState& state) c
   return static_cast<double>(prepared_->contacts[contact]->FrictionIn(prepared_->Placed(state)));
 }
 
-double ResidualCheck::SlidingForce(std::size_t contact, const CheckedState& state) const {
-  const check::Contact& of = *prepared_->contacts[contact];
+double ResidualCheck::SlidingForce(std::size_t contact, const CheckedState& given) const {
+  const CheckedState state = prepared_->attached->Settled(given);
   const double rn = state.rn[contact];
-  return Friction(contact, state) * rn * static_cast<double>(of.Stretch(rn));
+  return Friction(contact, state) * rn * static_cast<double>(prepared_->contacts[contact]->Stretch(rn));
 }
 
-std::optional<double> ResidualCheck::NormalByPlace(std::size_t contact, const CheckedState& state) const {
+std::optional<double> ResidualCheck::NormalByPlace(std::size_t contact, const CheckedState& given) const {
+  const CheckedState state = prepared_->attached->Settled(given);
   const std::optional<Real> normal = prepared_->contacts[contact]->NormalByPlace(prepared_->Placed(state));
   return normal ? std::optional(static_cast<double>(*normal)) : std::nullopt;
 }

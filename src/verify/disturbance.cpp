@@ -103,7 +103,7 @@ FreeMotions::FreeMotions(const Disturbed& of) {
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness_, Eigen::EigenvaluesOnly).eigenvalues();
   falling_ = static_cast<int>((values.array() < 0.0).count());
-  largest_ = values.cwiseAbs().maxCoeff();
+  largest_ = std::max(values.cwiseAbs().maxCoeff(), size);
   smallest_ = values.cwiseAbs().minCoeff() / largest_;
   // An error that grows as the step shrinks, as at a kink of the forces, is twice the change; a smooth one is a third.
   off_ = 2.0 * (left.transpose() * of.change * left).norm() / largest_;

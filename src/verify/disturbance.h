@@ -39,9 +39,10 @@ class FreeMotions {
 
   const Eigen::MatrixXd& Stiffness() const { return stiffness_; }  // of the motions that are left
   bool Symmetric() const { return symmetric_; }
-  int Falling() const { return falling_; }     // the number of negative eigenvalues
-  double Largest() const { return largest_; }  // eigenvalue
-  // Of the largest eigenvalue: the smallest one, and the error of differences.
+  int Falling() const { return falling_; }  // the number of negative eigenvalues
+  // Eigenvalue, or entry of the stiffness of all motions where this is larger.
+  double Largest() const { return largest_; }
+  // Of that: the smallest eigenvalue, and the error of differences.
   double Smallest() const { return smallest_; }
   double Off() const { return off_; }
   // Whether the signs of all eigenvalues are beyond their errors.

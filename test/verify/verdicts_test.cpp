@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 #include "verify/disturbance.h"
@@ -38,19 +37,21 @@ void ExpectVerdictsFound(const TracedPath& path, int open = 0) {
                                     [](const Increment& of) { return Inside(of) && Decided(of); });
   EXPECT_GE(verification.proved_verdicts, inside - open);
   EXPECT_GT(verification.proved_verdicts, 0);
+  // Of up to 8, since only some findings are listed.
   std::vector<Increment> increments = path.increments;
   std::size_t changed = 0;
-  for (Increment& increment : increments) {
-    if (!Inside(increment) || !Decided(increment)) continue;
-    Verdict& verdict = increment.stability.stability;
+  for (std::size_t i = 0; i < increments.size(); i += 1 + increments.size() / 8) {
+    if (!Inside(increments[i]) || !Decided(increments[i])) continue;
+    Verdict& verdict = increments[i].stability.stability;
     verdict = verdict == Verdict::kStable ? Verdict::kUnstable : Verdict::kStable;
     ++changed;
   }
+  EXPECT_GT(changed, 0U);
   const Verification tampered = VerifyPath(path.request, increments);
   std::size_t found = 0;
   for (const Finding& finding : tampered.findings)
     if (finding.what.find("able, but is ") != std::string::npos) ++found;
-  EXPECT_GE(found, std::min(changed, kMostLines) - static_cast<std::size_t>(open)) << Listed(tampered);
+  EXPECT_GE(found + static_cast<std::size_t>(open), changed) << Listed(tampered);
 }
 
 Load OfBody(const std::string& body, double fx, double by, double moment, bool constant) {
@@ -139,6 +140,38 @@ INSTANTIATE_TEST_SUITE_P(Verdicts, OfScenes,
                          testing::Values("ladder", "held_disc", "three_discs", "toggle_clamp", "tendon_finger",
                                          "tackle", "ratchet", "step_ladder"),
                          [](const auto& tested) { return std::string(tested.param); });
+
+// A body in a sling: eyes that it carries slide, and its motion changes the largest friction force.
+TEST(Verdicts, EyesOfABodySlide) {
+  for (const double friction : {0.2, 0.2677}) {
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "sling";
+    scene.bodies = {{"load", 0.05, 3.0}};
+    scene.nodes = {{"one", -0.6, 3.6},
+                   {"two", 0.5, 3.5},
+                   {"foot", 0.1, 2.2},
+                   {"left", -0.65, 5.0, true, true},
+                   {"right", 1.05, 5.2, true, true},
+                   {"hook", 0.0, 5.5, true, true}};
+    for (std::size_t i = 0; i < 3; ++i) scene.nodes[i].body = "load";
+    Tendon tendon;
+    tendon.nodes = {"left", "one", "hook", "two", "right"};
+    tendon.EA = 103.0;
+    tendon.friction = friction;
+    scene.tendons = {tendon};
+    scene.superelements = {{{"foot"}, {0.235, 0.0, 0.0, 0.33}}};
+    scene.loads = {OfBody("load", 0.0, -1.0, 0.0, true), OfBody("load", 0.18, -0.98, 0.126, false)};
+    request.options.stop = {{"load_factor", ">", 1.0}};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_TRUE(std::any_of(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
+      return Decided(increment) && Inside(increment) &&
+             std::count_if(increment.contacts.begin(), increment.contacts.end(),
+                           [](const ContactRecord& of) { return Slips(of.state); }) > 1;
+    }));
+    ExpectVerdictsFound(path);
+  }
+}
 
 // ----- dense matrices -----
 
