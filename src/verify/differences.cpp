@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kMostComponents = 400;  // eigenvalues take time with their third power
 constexpr double kBeside = 1e-6;              // of the length of the scene
+constexpr double kKink = 1e-3;                // of the stiffness: what differs on both sides
+constexpr double kSoftest = 1e-6;             // of the largest stiffness, below which rounding bends
 constexpr double kNoStiffness = 1e-13;        // of the largest one: rounding
 
 Eigen::VectorXd AsVector(const std::vector<double>& values) {
@@ -34,7 +36,8 @@ void Equilibrate(DisturbedIncrement* found) {
   of.held = (scale * of.held).eval();
   found->load = (scale * found->load).eval();
   for (Sliding& sliding : of.sliding)
-    if (sliding.by_place.size() > 0) sliding.by_place = (scale * sliding.by_place).eval();
+    for (Eigen::VectorXd* const by : {&sliding.by_place, &sliding.change})
+      if (by->size() > 0) *by = (scale * *by).eval();
 }
 
 }  // namespace
@@ -80,6 +83,7 @@ Differences::Change Differences::ChangeBy(const CheckedState& at, const std::vec
     sides[side] = AsVector(stage_.check.Unbalance(state));
   }
   change.forces = sides[1] - sides[0];
+  change.bend = sides[1] + sides[0] - 2.0 * AsVector(stage_.check.Unbalance(at));
   return change;
 }
 
@@ -144,8 +148,8 @@ void Differences::MakeGroups() {
   }
 }
 
-Eigen::MatrixXd Differences::Stiffness(const CheckedState& at, const std::vector<std::size_t>& components,
-                                       double step) const {
+Eigen::MatrixXd Differences::Stiffness(const CheckedState& at, const std::vector<std::size_t>& components, double step,
+                                       Eigen::MatrixXd* bend) const {
   const std::size_t positions = at.positions.size(), all = positions + at.rotations.size();
   const double energy = stage_.Energy();
   std::vector<Eigen::Index> place(all, -1);
@@ -156,6 +160,7 @@ Eigen::MatrixXd Differences::Stiffness(const CheckedState& at, const std::vector
   const std::size_t axes = all > positions ? 3 : 2;
   const auto size = static_cast<Eigen::Index>(components.size());
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
+  if (bend != nullptr) *bend = stiffness;
   for (const std::vector<std::size_t>& group : groups_)
     for (std::size_t axis = 0; axis < axes; ++axis) {
       std::vector<std::size_t> moved;
@@ -167,17 +172,18 @@ Eigen::MatrixXd Differences::Stiffness(const CheckedState& at, const std::vector
         for (const std::size_t node : coupled_[NodeOf(moved[i])])
           for (std::size_t of = 0; of < axes; ++of) {
             const std::size_t row = component_of(node, of);
-            if (place[row] >= 0)
-              stiffness(place[row], place[moved[i]]) = change.forces[static_cast<Eigen::Index>(row)] /
-                                                       change.motions[i] * UnitOf(row) * UnitOf(moved[i]) / energy;
+            if (place[row] < 0) continue;
+            const double unit = UnitOf(row) * UnitOf(moved[i]) / (change.motions[i] * energy);
+            stiffness(place[row], place[moved[i]]) = unit * change.forces[static_cast<Eigen::Index>(row)];
+            if (bend != nullptr)
+              (*bend)(place[row], place[moved[i]]) = unit * change.bend[static_cast<Eigen::Index>(row)];
           }
     }
   return stiffness;
 }
 
 Eigen::VectorXd Differences::FrictionByPlace(std::size_t contact, const CheckedState& at,
-                                             const std::vector<std::size_t>& components) const {
-  const double step = std::cbrt(std::numeric_limits<double>::epsilon());
+                                             const std::vector<std::size_t>& components, double step) const {
   const std::size_t positions = at.positions.size();
   Eigen::VectorXd change(static_cast<Eigen::Index>(components.size()));
   for (std::size_t k = 0; k < components.size(); ++k) {
@@ -195,7 +201,8 @@ Eigen::VectorXd Differences::FrictionByPlace(std::size_t contact, const CheckedS
   return change;
 }
 
-void Differences::AddReactions(const Increment& increment, const CheckedState& at, DisturbedIncrement* found) const {
+void Differences::AddReactions(const Increment& increment, const CheckedState& at, double step,
+                               DisturbedIncrement* found) const {
   const double force = stage_.scaling.force, give = force / stage_.scaling.length;
   std::vector<Eigen::VectorXd> columns;
   std::vector<double> gives;
@@ -228,7 +235,10 @@ void Differences::AddReactions(const Increment& increment, const CheckedState& a
     if (!Slips(state)) continue;
     sliding.sense = state == ContactState::kSlipPlus ? 1.0 : -1.0;
     sliding.friction = stage_.check.Friction(i, at);
-    if (!sliding.across) sliding.by_place = FrictionByPlace(i, at, found->components);
+    if (!sliding.across) {
+      sliding.by_place = FrictionByPlace(i, at, found->components, step);
+      sliding.change = FrictionByPlace(i, at, found->components, 2.0 * step) - sliding.by_place;
+    }
     found->disturbed.sliding.push_back(std::move(sliding));
   }
   for (std::size_t k = 0; k < at.pins.size(); ++k)
@@ -256,7 +266,8 @@ void Differences::KeepMoving(DisturbedIncrement* found) const {
   of.held = of.held(moving, Eigen::all).eval();
   found->load = found->load(moving).eval();
   for (Sliding& sliding : of.sliding)
-    if (sliding.by_place.size() > 0) sliding.by_place = sliding.by_place(moving).eval();
+    for (Eigen::VectorXd* const by : {&sliding.by_place, &sliding.change})
+      if (by->size() > 0) *by = (*by)(moving).eval();
   found->components = std::move(components);
 }
 
@@ -270,9 +281,14 @@ std::optional<DisturbedIncrement> Differences::At(const Increment& increment) {
   const double step = std::cbrt(std::numeric_limits<double>::epsilon());
   if (groups_.empty() || increment.bars != bars_of_groups_ || Touching(increment) != touching_in_groups_)
     FindCouplings(increment, step);
-  of.stiffness = Stiffness(at, found.components, step);
-  of.change = Stiffness(at, found.components, 2.0 * step) - of.stiffness;
-  AddReactions(increment, at, &found);
+  Eigen::MatrixXd bend;
+  of.stiffness = Stiffness(at, found.components, step, &bend);
+  of.change = Stiffness(at, found.components, 2.0 * step, nullptr) - of.stiffness;
+  // Where a string goes slack or a piece of a boundary ends next to the place, differences tell nothing.
+  const Eigen::MatrixXd sizes = of.stiffness.cwiseAbs();
+  const Eigen::VectorXd rows = sizes.rowwise().maxCoeff().cwiseMax(kSoftest * sizes.maxCoeff()).cwiseSqrt();
+  if ((bend.cwiseAbs().array() > kKink * (rows * rows.transpose()).array()).any()) return std::nullopt;
+  AddReactions(increment, at, step, &found);
   if (!of.sliding.empty() && stage_.configuration.HasTotalLaw()) return std::nullopt;
   const Eigen::VectorXd by_load = ForcesBy(
       at, [](CheckedState* state, std::size_t) { return &state->load_factor; }, 0, step * stage_.scaling.load_factor);

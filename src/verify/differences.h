@@ -35,6 +35,7 @@ class Differences {
   // Of Unbalance() by components that move together, each by its own motion.
   struct Change {
     Eigen::VectorXd forces;
+    Eigen::VectorXd bend;  // less that of a straight line
     std::vector<double> motions;
   };
   std::vector<std::size_t> FreeComponents() const;
@@ -48,13 +49,15 @@ class Differences {
   // Nodes on whose forces a node has an influence, and groups of nodes that have none on the same.
   void FindCouplings(const Increment& increment, double step);
   void MakeGroups();
-  Eigen::MatrixXd Stiffness(const CheckedState& at, const std::vector<std::size_t>& components, double step) const;
+  // bend: by how much it differs on both sides; may be null.
+  Eigen::MatrixXd Stiffness(const CheckedState& at, const std::vector<std::size_t>& components, double step,
+                            Eigen::MatrixXd* bend) const;
   // Leaves out what nothing moves with, but for bodies.
   void KeepMoving(DisturbedIncrement* found) const;
   // Reactions of contacts and pins.
-  void AddReactions(const Increment& increment, const CheckedState& at, DisturbedIncrement* found) const;
+  void AddReactions(const Increment& increment, const CheckedState& at, double step, DisturbedIncrement* found) const;
   Eigen::VectorXd FrictionByPlace(std::size_t contact, const CheckedState& at,
-                                  const std::vector<std::size_t>& components) const;
+                                  const std::vector<std::size_t>& components, double step) const;
 
   const VerifiedStage& stage_;
   std::vector<bool> turns_;  // by node: whether it has a rotation

@@ -53,7 +53,9 @@ struct OfSlides {
   Eigen::MatrixXd H, rounding;
 };
 
-OfSlides CondensedOn(const Disturbed& of, const Eigen::MatrixXd& stiffness) {
+// changed: by differences of twice the step.
+OfSlides CondensedOn(const Disturbed& of, bool changed) {
+  const Eigen::MatrixXd stiffness = changed ? Eigen::MatrixXd(of.stiffness + of.change) : of.stiffness;
   const Eigen::Index n = stiffness.rows(), m = of.held.cols(), count = static_cast<Eigen::Index>(of.sliding.size());
   const double rigid = kRigid / SizeOf(stiffness);
   Eigen::MatrixXd equations(n + m, n + m), moved = Eigen::MatrixXd::Zero(n + m, count);
@@ -63,15 +65,18 @@ OfSlides CondensedOn(const Disturbed& of, const Eigen::MatrixXd& stiffness) {
     moved(n + by.along, k) = by.sense;
   }
   const Eigen::MatrixXd by_slides = equations.fullPivLu().solve(moved);
+  const Eigen::RowVectorXd sizes = by_slides.topRows(n).colwise().norm();
   OfSlides found{Eigen::MatrixXd(count, count), Eigen::MatrixXd(count, count)};
   for (Eigen::Index k = 0; k < count; ++k) {
     const Sliding& at = of.sliding[static_cast<std::size_t>(k)];
     const Eigen::RowVectorXd along = at.sense * by_slides.row(n + at.along);
     Eigen::RowVectorXd across = Eigen::RowVectorXd::Zero(count);
     if (at.across) across = at.friction * by_slides.row(n + *at.across);
-    if (at.by_place.size() > 0) across += at.by_place.transpose() * by_slides.topRows(n);
+    if (at.by_place.size() > 0)
+      across += (changed ? at.by_place + at.change : at.by_place).transpose() * by_slides.topRows(n);
     found.H.row(k) = along + across;
-    found.rounding.row(k) = kRoundingOfH * (along.cwiseAbs() + across.cwiseAbs());
+    found.rounding.row(k) =
+        kRoundingOfH * (along.cwiseAbs() + across.cwiseAbs() + SizeOf(stiffness) * sizes[k] * sizes);
   }
   return found;
 }
@@ -134,7 +139,7 @@ std::optional<Verdict> VerdictOf(const Disturbed& of, const FreeMotions& free) {
     if (free.Falling() == 0) return Verdict::kStable;
     return free.Symmetric() ? std::optional(Verdict::kUnstable) : std::nullopt;
   }
-  const OfSlides found = CondensedOn(of, of.stiffness), other = CondensedOn(of, of.stiffness + of.change);
+  const OfSlides found = CondensedOn(of, false), other = CondensedOn(of, true);
   const Eigen::Index count = found.H.rows();
   if (!found.H.allFinite() || !other.H.allFinite()) return std::nullopt;
   const Eigen::VectorXd unit =

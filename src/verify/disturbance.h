@@ -19,6 +19,7 @@ struct Sliding {
   double sense = 1.0;
   double friction = 0.0;
   Eigen::VectorXd by_place;  // change of the largest friction force by v; empty: none
+  Eigen::VectorXd change;    // of by_place with twice the step of its differences
 };
 
 // All scaled. Of motions v and changes rho of reactions: stiffness v = held rho.

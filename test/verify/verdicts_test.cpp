@@ -223,7 +223,7 @@ TEST(Disturbance, Slides) {
       of.change = Eigen::MatrixXd::Zero(2, 2);
       of.held = Matrix(2, {0.0, 1.0, 1.0, 0.0});
       of.give = Eigen::Vector2d::Zero();
-      of.sliding = {{1, 0, sense, 0.8, {}}};
+      of.sliding = {{1, 0, sense, 0.8, {}, {}}};
       const double H = 1.0 + 0.8 * sense * coupling;
       EXPECT_EQ(VerdictOf(of, FreeMotions(of)), H > 0.0 ? Verdict::kStable : Verdict::kUnstable);
     }
