@@ -85,7 +85,8 @@ struct SpelledQuantity {
 // The spellings above; nothing for another one. `text` must outlive the result.
 std::optional<SpelledQuantity> ReadQuantity(std::string_view text);
 
-// Nothing for another spelling, a part that the scene does not have, and a component that no support holds, or the moment of a pin without a spring.
+// Nothing for another spelling, a part that the scene does not have, and a component that no support holds, or the
+// moment of a pin without a spring.
 std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& index);
 
 // The quantity of the scene that another spelling may mean.
