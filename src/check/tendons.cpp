@@ -236,7 +236,8 @@ class EyeContact : public Contact {
   }
   OnNode ForceOnNode(const PlacedState&, Real, Real) const override { return {}; }
   Real Imbalance(const PlacedState& state, Real rn, Real, Real) const override {
-    return std::abs(rn - *NormalByPlace(state));
+    const std::vector<double> values = state.Values();
+    return std::abs(rn - before_.SignedTension(values) - behind_.SignedTension(values));
   }
 
  private:
