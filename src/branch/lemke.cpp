@@ -138,10 +138,26 @@ Eigen::SparseMatrix<double> WithColumn(const ComplementarityProblem& problem, co
   return columns;
 }
 
+// From where the covering variable takes the place of another one until it leaves. False: it does not.
+bool PivotToEnd(Eigen::Index place, const ComplementarityProblem& problem, Basis* basis) {
+  const Eigen::Index n = problem.pairs, covering = problem.Second(n);
+  Eigen::Index entering = covering;
+  for (Eigen::Index pivot = 0; pivot < kPivotsPerVariable * n; ++pivot) {
+    const Eigen::VectorXd column = basis->Column(entering);
+    if (pivot > 0) place = FirstBlocked(*basis, column, problem.NumFree(), covering);
+    if (place < 0) return false;
+    const Eigen::Index left = basis->Basic(place);
+    if (!basis->Exchange(place, entering, column) || !basis->Values().allFinite()) return false;
+    if (left == covering) return true;
+    entering = left < problem.Second(0) ? left + n : left - n;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<ComplementaritySolution> SolveByLemke(const ComplementarityProblem& problem, const Eigen::VectorXd& cover,
-                                                    ComplementaritySolution second) {
+                                                    ComplementaritySolution start, Eigen::VectorXd* values) {
   const Eigen::Index n = problem.pairs, num_free = problem.NumFree(), covering = problem.Second(n);
   const double size = problem.right.lpNorm<Eigen::Infinity>();
   // Shares that are no multiples of each other.
@@ -150,23 +166,15 @@ std::optional<ComplementaritySolution> SolveByLemke(const ComplementarityProblem
     const double share = std::sqrt(2.0) * static_cast<double>(i + 1);
     changes[i] = problem.changes[i] * (0.5 + 0.5 * (share - std::floor(share)));
   }
+  ComplementaritySolution second = std::move(start);
   second.resize(static_cast<std::size_t>(n), false);
   const Eigen::SparseMatrix<double> columns = WithColumn(problem, -SumOfBasic(problem, second, cover));
   Basis basis(columns, second, problem.right + SumOfBasic(problem, second, changes));
   if (!basis.Factorize()) return std::nullopt;
-  Eigen::Index entering = covering, worst = 0;
-  if (n == 0 || basis.Values().tail(n).minCoeff() >= 0.0) return second;
-  basis.Values().tail(n).cwiseQuotient(cover).minCoeff(&worst);
-  Eigen::Index place = num_free + worst;
-  for (Eigen::Index pivot = 0; pivot < kPivotsPerVariable * n; ++pivot) {
-    const Eigen::VectorXd column = basis.Column(entering);
-    if (pivot > 0) place = FirstBlocked(basis, column, num_free, covering);
-    if (place < 0) return std::nullopt;
-    const Eigen::Index left = basis.Basic(place);
-    if (!basis.Exchange(place, entering, column) || !basis.Values().allFinite()) return std::nullopt;
-    if (left == covering) break;
-    entering = left < problem.Second(0) ? left + n : left - n;
-  }
+  Eigen::Index worst = 0;
+  if (n > 0 && basis.Values().tail(n).cwiseQuotient(cover).minCoeff(&worst) < 0.0 &&
+      !PivotToEnd(num_free + worst, problem, &basis))
+    return std::nullopt;
   // Without the changes: a variable below zero tells that the pivots were lost in rounding.
   basis.SetRight(problem.right);
   if (!basis.Factorize()) return std::nullopt;
@@ -178,6 +186,7 @@ std::optional<ComplementaritySolution> SolveByLemke(const ComplementarityProblem
     if (variable >= num_free)
       second[static_cast<std::size_t>((variable - num_free) % n)] = variable >= problem.Second(0);
   }
+  if (values != nullptr) *values = basis.Values().tail(n);
   return second;
 }
 

@@ -25,9 +25,11 @@ struct ComplementarityProblem {
 // By Lemke's method (Cottle, Pang & Stone, The Linear Complementarity Problem, 2009, algorithm 4.4.5) from `start`,
 // whose basic variables `cover` > 0 covers; empty: z = 0. Ties are broken by changing each of these by another share of
 // `changes`, so that the method ends. Nothing where it ends on a ray, where the pivots are lost in rounding, or where x
-// and the basic variables are not unique. One solution with sparse LU factors a pivot.
+// and the basic variables are not unique. One solution with sparse LU factors a pivot. values: by
+// pair, of the one of w and z that is basic.
 std::optional<ComplementaritySolution> SolveByLemke(const ComplementarityProblem& problem, const Eigen::VectorXd& cover,
-                                                    ComplementaritySolution start = {});
+                                                    ComplementaritySolution start = {},
+                                                    Eigen::VectorXd* values = nullptr);
 
 }  // namespace contact_path
 

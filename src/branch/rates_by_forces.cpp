@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "branch/lemke.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -139,15 +140,20 @@ std::optional<States> RatesByForces::Solve(double load_sense, double share, Comp
   problem.equations = all.leftCols(last);
   if (!problem.right.allFinite()) return std::nullopt;
   const Eigen::VectorXd cover = Eigen::VectorXd::Ones(problem.pairs);
-  std::optional<ComplementaritySolution> forces = SolveByLemke(problem, cover, *near);
-  if (!forces && !near->empty()) forces = SolveByLemke(problem, cover);
+  Eigen::VectorXd values;
+  std::optional<ComplementaritySolution> forces = SolveByLemke(problem, cover, *near, &values);
+  if (!forces && !near->empty()) forces = SolveByLemke(problem, cover, {}, &values);
   if (!forces) return std::nullopt;
   *near = *forces;
+  // Where neither force nor motion tells, as of a part that others do not touch with a force, the port is held.
+  const double moves = tolerances::kRate * values.lpNorm<Eigen::Infinity>();
   std::vector<bool> beyond;
   const std::size_t num_pairs = pairs_.pairs().size();
-  for (std::size_t p = 0; p < num_pairs; ++p)
-    beyond.push_back(slip_of_[p] < 0 ? !(*forces)[p]
-                                     : (*forces)[p] && (*forces)[num_pairs + static_cast<std::size_t>(slip_of_[p])]);
+  for (std::size_t p = 0; p < num_pairs; ++p) {
+    const std::size_t motion = slip_of_[p] < 0 ? p : num_pairs + static_cast<std::size_t>(slip_of_[p]);
+    const bool may = slip_of_[p] < 0 ? !(*forces)[p] : (*forces)[p] && (*forces)[motion];
+    beyond.push_back(may && values[static_cast<Eigen::Index>(motion)] > moves);
+  }
   return pairs_.StatesBeyond(beyond);
 }
 

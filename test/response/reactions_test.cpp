@@ -240,7 +240,7 @@ TEST(Reactions, SupportHidesABoundaryOfItsName) {
   const SceneIndex index(request.scene);
   const std::optional<Quantity> quantity = FindQuantity("floor.rx", index);
   ASSERT_TRUE(quantity.has_value());
-  EXPECT_FALSE(quantity->of_boundary);
+  EXPECT_EQ(quantity->of, Quantity::Of::kSupport);
   EXPECT_EQ(FindQuantity("floor.rm", index), std::nullopt);
   std::ostringstream header;
   CsvWriter(request).WriteHeader(header);

@@ -67,8 +67,8 @@ TEST_F(QuantityTest, SupportsBoundariesAndSections) {
   ExpectQuantity("traction_x_b@gap_c", Kind::kTraction, 1);
   ExpectQuantity("bar1.N", Kind::kN, 0);
   ExpectQuantity("N_bar1", Kind::kN, 0);
-  EXPECT_TRUE(FindQuantity("floor.rx", SceneIndex(scene_))->of_boundary);
-  EXPECT_FALSE(FindQuantity("x_b.ry", SceneIndex(scene_))->of_boundary);
+  EXPECT_EQ(FindQuantity("floor.rx", SceneIndex(scene_))->of, Quantity::Of::kBoundary);
+  EXPECT_EQ(FindQuantity("x_b.ry", SceneIndex(scene_))->of, Quantity::Of::kSupport);
   // A free component has no reaction, a node without a beam no moment, a bar that is not there no section.
   for (const char* text : {"x_b.rx", "x_b.rm", "a.ry", "load_factor.rx", "bar0.N", "bar2.N", "bar1.sxx", "wall.rx"})
     EXPECT_EQ(FindQuantity(text, SceneIndex(scene_)), std::nullopt) << text;

@@ -110,9 +110,9 @@ class ResidualCheck {
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
   // The largest |rt| / rn, and what works along the slip where the contact slides [force].
   double Friction(std::size_t contact, const CheckedState& state) const;
-  double SlidingForce(std::size_t contact, const CheckedState& state) const;
+  double SlidingForce(std::size_t contact, const CheckedState& given) const;
   // rn where the place alone tells it, as at an eye of a tendon [force].
-  std::optional<double> NormalByPlace(std::size_t contact, const CheckedState& state) const;
+  std::optional<double> NormalByPlace(std::size_t contact, const CheckedState& given) const;
   // What forces may be off by where curvatures jump below contacts that give way [force].
   double Uncertain(const CheckedState& state) const;
   // Motion by which a contact gives way to a force [length/force]; 0 where it is not of a rigid body. Of a pin; 0 where
