@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "branch/lemke.h"
+#include "contact_path/branch/lemke.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {

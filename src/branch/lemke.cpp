@@ -1,4 +1,4 @@
-#include "branch/lemke.h"
+#include "contact_path/branch/lemke.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "branch/lemke.h"
+#include "contact_path/branch/lemke.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {

@@ -8,6 +8,7 @@
 
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
@@ -300,6 +301,24 @@ TEST(PointsOfBodies, DiscsInABinWhoseWallMovesOut) {
     EXPECT_GT(path.increments.back().load_factor, 0.1);
     ExpectNoFindings(path);
   }
+}
+
+// Most contacts have neither a force nor a motion at first: those that bear are found, and bear the weight.
+TEST(PointsOfBodies, FiftyDiscsComeToRestInABin) {
+  const TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/fifty_discs_in_a_bin.yaml");
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_FALSE(path.increments.empty()) << path.result.message;
+  double weight = 0.0, borne = 0.0, across = 0.0;
+  for (const Load& load : request.scene.loads) weight -= load.by;
+  const SceneIndex index(request.scene);
+  for (const char* name : {"floor", "left", "right"}) {
+    const Resultant& of = path.increments.front().boundaries[index.FindBoundary(name).value()];
+    borne += of.ry;
+    across += of.rx;
+  }
+  EXPECT_NEAR(borne, weight, kExact * weight);
+  EXPECT_NEAR(across, 0.0, kExact * weight);
+  ExpectNoFindings(path);
 }
 
 }  // namespace

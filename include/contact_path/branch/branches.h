@@ -82,11 +82,12 @@ double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& po
 // Arrival::forward, on none the path parameter goes on, forces may have to change while nothing moves, as where a
 // block that is carried along meets a stop. Then branches are added for all other reactions that the point can have
 // (force_redistribution.h). The complementarity problem of the rates (rate_complementarity.h) tells the branches
-// where its solutions are the only ones, and where there are more than 4^6 combinations of states; up to 4^6
-// combinations are all tried otherwise, and where the solution for a sense of the load neither leads on nor is the
-// branch of arrival. Where there are more of them, and that problem does not exist or leaves a sense open, principal
-// pivoting on the rates (rate_problem.h) selects combinations from several first guesses; if there is no branch then,
-// up to 4^8 are all tried. All are tried alike. cancelled: asked often; may be empty.
+// where its solutions are the only ones, and where there are more than 4^6 combinations of states, then also in forces
+// and without condensing (rates_by_forces.h); up to 4^6 combinations are all tried otherwise, and where the solution
+// for a sense of the load neither leads on nor is the branch of arrival. Where there are more of them, and those
+// problems do not exist or leave a sense open, principal pivoting on the rates (rate_problem.h) selects combinations
+// from several first guesses; if there is no branch then, up to 4^8 are all tried. All are tried alike. cancelled:
+// asked often; may be empty.
 BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point, const Arrival& arrival,
                        const ActiveSetTolerance& tolerance, const std::function<bool()>& cancelled = nullptr);
 

@@ -109,7 +109,7 @@ class IncrementProblem : public NonlinearProgram {
   using Zeros = std::vector<Zero>;  // of one product
   std::vector<Zeros> ZerosAt(const PathPoint& point, const Eigen::VectorXd& x) const;
   // Puts a slot with its variables and constraints behind the others. rn: its first variable.
-  Slot& AddSlot(std::size_t law, Eigen::Index rn);
+  Slot& AddSlot(std::size_t number, Eigen::Index rn);
   // By y, forces and the dofs of the slot: motions with what compliances give, over S; gradients as they are, Hessians
   // and gradients of factors times S.
   PortsAt ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;

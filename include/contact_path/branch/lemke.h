@@ -1,6 +1,6 @@
 // Lemke's method on sparse equations.
-#ifndef CONTACT_PATH_SRC_BRANCH_LEMKE_H_
-#define CONTACT_PATH_SRC_BRANCH_LEMKE_H_
+#ifndef CONTACT_PATH_BRANCH_LEMKE_H_
+#define CONTACT_PATH_BRANCH_LEMKE_H_
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -33,4 +33,4 @@ std::optional<ComplementaritySolution> SolveByLemke(const ComplementarityProblem
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_SRC_BRANCH_LEMKE_H_
+#endif  // CONTACT_PATH_BRANCH_LEMKE_H_
