@@ -33,7 +33,7 @@ MethodFactory Mpec(double step) {
     options.method = Method::kMpec;
     options.step = step;
     MpecOptions mpec = MpecOptions::For(options, 1.0);
-    mpec.target = target;
+    mpec.targets = {target};
     return std::make_unique<MpecMethod>(model, mpec, nullptr);
   };
 }
