@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/path/trace.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
@@ -305,12 +306,14 @@ TEST(PointsOfBodies, DiscsInABinWhoseWallMovesOut) {
 
 // Most contacts have neither a force nor a motion at first: those that bear are found, and bear the weight.
 TEST(PointsOfBodies, FiftyDiscsComeToRestInABin) {
-  const TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/fifty_discs_in_a_bin.yaml");
+  const TraceRequest request =
+      ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/piles/fifty_discs_in_a_bin.yaml");
   const TracedPath path = TraceIncrements(request);
   ASSERT_FALSE(path.increments.empty()) << path.result.message;
   double weight = 0.0, borne = 0.0, across = 0.0;
   for (const Load& load : request.scene.loads) weight -= load.by;
-  const SceneIndex index(request.scene);
+  const TraceRequest expanded = Expand(request).request;
+  const SceneIndex index(expanded.scene);
   for (const char* name : {"floor", "left", "right"}) {
     const Resultant& of = path.increments.front().boundaries[index.FindBoundary(name).value()];
     borne += of.ry;
