@@ -11,7 +11,6 @@ namespace contact_path {
 namespace {
 
 constexpr double kUneven = 16.0;
-constexpr double kTie = 1e-9;  // of the largest entry of q: q is changed by less
 
 }  // namespace
 
@@ -21,7 +20,7 @@ std::vector<ComplementaritySolution> SolveComplementarity(const Eigen::MatrixXd&
   Eigen::MatrixXd dense(n, 2 * n);
   dense << Eigen::MatrixXd::Identity(n, n), -M;
   ComplementarityProblem problem{dense.sparseView(), q, n,
-                                 Eigen::VectorXd::Constant(n, kTie * q.lpNorm<Eigen::Infinity>())};
+                                 Eigen::VectorXd::Constant(n, kOfTies * q.lpNorm<Eigen::Infinity>())};
   std::vector<ComplementaritySolution> solutions;
   const auto note = [&](const std::optional<ComplementaritySolution>& second) {
     if (second && std::find(solutions.begin(), solutions.end(), *second) == solutions.end())

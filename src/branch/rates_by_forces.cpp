@@ -6,18 +6,12 @@
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {
-
-constexpr double kChange = 1e-9;  // of the load: what breaks ties
-
-}  // namespace
-
 RatesByForces::RatesByForces(const Structure& structure, const Laws& laws, const PathPoint& point, const Modes& modes,
                              const std::vector<int>& weakly_active, const RatePairs& pairs)
     : held_(structure, laws, point, modes, weakly_active), pairs_(pairs) {
   for (std::size_t k = 0; k < weakly_active.size(); ++k)
     law_of_.insert(law_of_.end(), laws[static_cast<std::size_t>(weakly_active[k])].NumPorts(), k);
-  exists_ = NumberColumns();
+  exists_ = NumberForces();
   if (!exists_) return;
   for (std::size_t k = 0; k < weakly_active.size(); ++k) AddForces(k);
   AddPairs();
@@ -25,7 +19,7 @@ RatesByForces::RatesByForces(const Structure& structure, const Laws& laws, const
 
 // Forces are those of held ports and those of pairs: of a port that may slip both ways against the slip, of another one
 // w where it slips one way.
-bool RatesByForces::NumberColumns() {
+bool RatesByForces::NumberForces() {
   const std::vector<RatePairs::Pair>& pairs = pairs_.pairs();
   slip_of_.assign(pairs.size(), -1);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -108,7 +102,7 @@ void RatesByForces::Scale(double share, Eigen::SparseMatrix<double>* equations, 
   const Eigen::Index nd = held_.system().NumDofs(), first = held_.system().NumUnknowns() - 1 + num_held_;
   const auto pairs = static_cast<Eigen::Index>(pairs_.pairs().size());
   const double spring = held_.Springs().maxCoeff(), k = std::sqrt(spring * share);
-  const double force = kChange * equations->col(equations->cols() - 1).toDense().lpNorm<Eigen::Infinity>();
+  const double force = kOfTies * equations->col(equations->cols() - 1).toDense().lpNorm<Eigen::Infinity>();
   Eigen::VectorXd rows = Eigen::VectorXd::Constant(equations->rows(), k);
   Eigen::VectorXd columns = Eigen::VectorXd::Constant(equations->cols(), k);
   rows.head(nd).setConstant(1.0 / k);

@@ -35,7 +35,7 @@ class RatesByForces {
     double share;
   };
 
-  bool NumberColumns();
+  bool NumberForces();
   void AddForces(std::size_t k);
   void AddPairs();
   void AddMotion(Eigen::Index equation, Eigen::Index port, double factor);

@@ -46,7 +46,7 @@ class RowSpace {
  private:
   // By the inverse power method: its smallest singular value, which no pivot is below.
   bool IsFarFromSingular() const {
-    if (r_.cols() < kMany || !(r_.diagonal().cwiseAbs().minCoeff() > 0.0)) return false;
+    if (!(r_.diagonal().cwiseAbs().minCoeff() > 0.0)) return false;
     Eigen::VectorXd v = GenericVector(r_.cols()).normalized();
     double growth = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -58,7 +58,6 @@ class RowSpace {
     return growth * r_.squaredNorm() < 1.0 / tolerances::kDependentColumn;
   }
 
-  static constexpr Eigen::Index kMany = 48;  // fewer are quick
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> r_;
   std::vector<Eigen::Index> end_;  // by row: from here on it is zero
 };

@@ -215,8 +215,10 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
       solutions.row(places_[k]) = all.row(nd + 1 + static_cast<Eigen::Index>(k));
   }
   w_of_load_.resize(count);
+  slip_rounding_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Slip& slip = slips_[static_cast<std::size_t>(i)];
+    slip_rounding_[i] = tolerances::kEqual * EnergyAt(slip, motions_.col(i));
     const Eigen::RowVectorXd along = slip.sense * solutions.row(PlaceOf(slip.following)).segment(1, count),
                              across = slip.ratio * solutions.row(PlaceOf(slip.leading)).segment(1, count);
     H_.row(i) = along + across;
@@ -225,6 +227,17 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
         slip.sense * solutions(PlaceOf(slip.following), 0) + slip.ratio * solutions(PlaceOf(slip.leading), 0);
   }
   return H_.allFinite();
+}
+
+double StabilityProblem::EnergyAt(const Slip& slip, const Eigen::VectorXd& motion) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  double stiffest = 0.0, squares = 0.0;
+  for (Eigen::SparseMatrix<double>::InnerIterator dof(forces_, slip.following - nd); dof; ++dof) {
+    squares += motion[dof.row()] * motion[dof.row()];
+    for (Eigen::SparseMatrix<double>::InnerIterator it(saddle_, dof.row()); it && it.row() < nd; ++it)
+      stiffest = std::max(stiffest, std::abs(it.value()));
+  }
+  return stiffest * squares;
 }
 
 Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
@@ -323,10 +336,12 @@ Stability StabilityProblem::Under(double compliance) const {
     return found;
   }
 
+  const Eigen::MatrixXd of_slips = H_ - share * w_of_load_ * load_of_slips_.transpose();
+  // No energy opposes a slip, as of a disc that spins in its place: rounding would tell the sign.
+  if ((of_slips.diagonal().cwiseAbs().array() <= slip_rounding_.array()).any()) return found;
   const double least = H_.cwiseAbs().maxCoeff() * tolerances::kRootOfRounding;
   const Eigen::VectorXd scale = H_.diagonal().cwiseAbs().cwiseMax(least).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd H =
-      scale.asDiagonal() * (H_ - share * w_of_load_ * load_of_slips_.transpose()) * scale.asDiagonal();
+  const Eigen::MatrixXd H = scale.asDiagonal() * of_slips * scale.asDiagonal();
   if (n0 == 0 && IsStrictlyCopositive(H)) {
     found.verdict = Verdict::kStable;
     found.directions = 0;

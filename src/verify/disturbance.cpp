@@ -142,8 +142,10 @@ std::optional<Verdict> VerdictOf(const Disturbed& of, const FreeMotions& free) {
   const OfSlides found = CondensedOn(of, false), other = CondensedOn(of, true);
   const Eigen::Index count = found.H.rows();
   if (!found.H.allFinite() || !other.H.allFinite()) return std::nullopt;
-  const Eigen::VectorXd unit =
-      found.H.diagonal().cwiseAbs().cwiseMax(1e-8 * found.H.cwiseAbs().maxCoeff()).cwiseSqrt().cwiseInverse();
+  // No energy opposes a slip of which only rounding is left.
+  if ((found.H.diagonal().cwiseAbs().array() <= found.rounding.diagonal().array()).any()) return std::nullopt;
+  const double largest = found.H.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd unit = found.H.diagonal().cwiseAbs().cwiseMax(1e-8 * largest).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd H = unit.asDiagonal() * found.H * unit.asDiagonal();
   const double off =
       (unit.asDiagonal() * (found.rounding + 2.0 * (other.H - found.H).cwiseAbs()) * unit.asDiagonal()).norm();

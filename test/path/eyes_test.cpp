@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/path/trace.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -17,30 +18,11 @@ namespace {
 constexpr double kSoft = 2e-8;
 constexpr double kSame = 1e-7;
 
-// From a fixed node through a fixed eye, round which it turns by `turn`, to a node that a force draws along the tendon
-// and lets go.
-TraceRequest DrawnCord(double turn, double friction, double EA) {
-  TraceRequest request;
-  Scene& scene = request.scene;
-  scene.name = "drawn_cord";
-  scene.nodes = {
-      {"end", -1.0, 0.0, true, true}, {"eye", 0.0, 0.0, true, true}, {"drawn", std::cos(turn), -std::sin(turn)}};
-  // Springs across keep the node on the line.
-  const double c = std::cos(turn), s = std::sin(turn);
-  scene.superelements = {{{"drawn"}, {s * s, s * c, s * c, c * c}}};
-  Tendon cord;
-  cord.name = "cord";
-  cord.nodes = {"end", "eye", "drawn"};
-  cord.EA = EA;
-  cord.friction = friction;
-  scene.tendons = {cord};
-  Stage pull, release;
-  pull.name = "pull";
-  pull.loads = {{"drawn", c, -s}};
+TraceRequest DrawnAndReleased(double turn, double friction, double EA) {
+  TraceRequest request = DrawnCord(turn, friction, EA);
+  Stage& release = request.program.emplace_back();
   release.name = "release";
   release.unload = true;
-  request.program = {pull, release};
-  request.options.record = {"sections"};
   return request;
 }
 
@@ -51,7 +33,7 @@ TEST(Eyes, TheTensionsDifferByTheCapstanFactor) {
     for (const double friction : {0.1, 0.3, 1.0})
       for (const double EA : {20.0, 1e3, 1e6}) {
         SCOPED_TRACE(::testing::Message() << "turn " << turn << " friction " << friction << " EA " << EA);
-        const TracedPath path = TraceIncrements(DrawnCord(turn, friction, EA));
+        const TracedPath path = TraceIncrements(DrawnAndReleased(turn, friction, EA));
         EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
         const double factor = std::exp(friction * turn);
         double sticks = 0.0, leaves = 0.0;
@@ -139,7 +121,7 @@ TEST(Eyes, ATackleLosesAtEachSheave) {
 
 // A tendon goes slack as a whole, and becomes taut where it is as long as its way.
 TEST(Eyes, GoesSlackAsAWhole) {
-  TraceRequest request = DrawnCord(0.5 * M_PI, 0.3, 100.0);
+  TraceRequest request = DrawnAndReleased(0.5 * M_PI, 0.3, 100.0);
   request.scene.superelements.clear();
   request.scene.nodes[2].fixed_x = request.scene.nodes[2].fixed_y = true;
   request.scene.tendons[0].rest_length = 2.1;

@@ -9,6 +9,7 @@
 
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/validate.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -25,16 +26,6 @@ Load OnNode(const std::string& node, double fx, double fy, bool constant) {
   load.fx = fx;
   load.fy = fy;
   load.constant = constant;
-  return load;
-}
-
-Load OfBody(const std::string& body, double fx, double fy, double moment = 0.0) {
-  Load load;
-  load.body = body;
-  load.fx = fx;
-  load.fy = fy;
-  load.moment = moment;
-  load.constant = true;
   return load;
 }
 
@@ -247,7 +238,7 @@ TEST(FrictionChanges, ABoxSlidesWhereFrictionIsTheSlope) {
           scene.contacts.push_back({name, "slope"});
         }
         scene.obstacles = {HalfPlane("slope", -s, c, 1.0)};
-        scene.loads = {OfBody("box", 0.0, -units.force)};
+        scene.loads = {LoadOnBody("box", 0.0, -units.force, true)};
         scene.friction_changes = {{"slope", -0.5 / units.load_factor}};
         request.options.at_limit = AtLimit::kStop;
         const TracedPath path = TraceIncrements(mirrored ? Mirror(request) : request);
@@ -271,7 +262,7 @@ TEST(FrictionChanges, ALadderSlipsWhereTheFloorNoLongerHoldsIt) {
         scene.nodes = {OfBody("foot", x, 0.0, "ladder"), OfBody("head", 0.0, y, "ladder")};
         scene.obstacles = {HalfPlane("floor", 0.0, 1.0, 1.0), HalfPlane("wall", 1.0, 0.0, of_wall)};
         scene.contacts = {{"foot", "floor"}, {"head", "wall"}};
-        scene.loads = {OfBody("ladder", 0.0, -1.0)};
+        scene.loads = {LoadOnBody("ladder", 0.0, -1.0, true)};
         scene.friction_changes = {{"floor", -1.0}};
         request.options.at_limit = AtLimit::kStop;
         request.options.record = {"inner"};
@@ -304,7 +295,7 @@ TEST(FrictionChanges, ADiscSlipsOutOfAGrip) {
         scene.contacts.push_back({name, "rim"});
         scene.loads.push_back(OnNode(name, -side * units.force, 0.0, true));
       }
-      scene.loads.push_back(OfBody("disc", 0.0, -weight * units.force));
+      scene.loads.push_back(LoadOnBody("disc", 0.0, -weight * units.force, true));
       scene.friction_changes = {{"rim", -0.4 / units.load_factor}};
       request.options.at_limit = AtLimit::kStop;
       const TracedPath path = TraceIncrements(request);
@@ -330,7 +321,7 @@ TEST(FrictionChanges, ARollingDiscSlips) {
     ContactCandidate rolls;
     rolls.obstacles = {"rim", "floor"};
     scene.contacts = {rolls};
-    scene.loads = {OfBody("disc", 0.0, -1.0, -0.2 * radius)};
+    scene.loads = {LoadOnBody("disc", 0.0, -1.0, true, -0.2 * radius)};
     scene.friction_changes = {{"floor", -0.25}};
     request.options.max_increments = 60;
     const TracedPath path = TraceIncrements(request);

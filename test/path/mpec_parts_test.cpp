@@ -10,6 +10,7 @@
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/scaling.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -81,16 +82,6 @@ void ExpectPathOfBranch(const TracedPath& path, const std::string& quantity,
 
 double LoadOf(const Increment& increment) { return increment.load_factor; }
 
-Load OnBody(const std::string& body, double fx, double fy, double moment, bool constant) {
-  Load load;
-  load.body = body;
-  load.fx = fx;
-  load.fy = fy;
-  load.moment = moment;
-  load.constant = constant;
-  return load;
-}
-
 Obstacle RimOf(const std::string& body, double x, double y, double radius, double friction) {
   Obstacle rim;
   rim.name = "rim_" + body;
@@ -120,7 +111,7 @@ TEST(MpecBodies, ADiscTurnsInARightAngle) {
         scene.contacts.emplace_back();
         scene.contacts.back().obstacles = {"rim_disc", on};
       }
-      scene.loads = {OnBody("disc", 0.0, -weight, 0.0, true), OnBody("disc", 0.0, 0.0, weight * radius, false)};
+      scene.loads = {LoadOnBody("disc", 0.0, -weight, true), LoadOnBody("disc", 0.0, 0.0, false, weight * radius)};
       request.options.stop = {{"disc.rotation", ">", 0.3}};
       request.options.step = 0.2;
       const TracedPath path = TraceByMpec(request);
@@ -150,7 +141,7 @@ TEST(MpecBodies, ABoxSlidesOrTips) {
       for (Node& node : scene.nodes) node.body = "box";
       scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
       scene.contacts = {{"a", "floor"}, {"b", "floor"}};
-      scene.loads = {OnBody("box", 0.0, -1.0, 0.0, true), OnBody("box", 1.0, 0.0, 0.0, false)};
+      scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("box", 1.0, 0.0)};
       request.options.max_increments = 12;
       request.options.step = 0.2;
       EXPECT_NEAR(LargestLoadOf(TraceByMpec(request)), std::min(friction, 0.5 * width), kCorner);
@@ -203,8 +194,7 @@ TraceRequest PinnedChain(double size, double spring) {
   scene.pins = {{{"s0", "left"}}, {{"e1", "s1"}, spring}, {{"e2", "s2"}, spring}, {{"e3", "right"}}};
   const double holds = 3.0 * spring / (size * size);
   scene.superelements = {{{"right"}, {holds, 0.0, 0.0, holds}}};
-  scene.loads = {OnBody("rod1", 0.0, -spring / size, 0.0, false),
-                 OnBody("rod3", 0.0, -0.7 * spring / size, 0.0, false)};
+  scene.loads = {LoadOnBody("rod1", 0.0, -spring / size), LoadOnBody("rod3", 0.0, -0.7 * spring / size)};
   request.options.max_increments = 30;
   return request;
 }
@@ -292,26 +282,11 @@ TEST(MpecFrictionChanges, AStepLadderSlidesApart) {
 TEST(MpecEyes, TheTensionsDifferByTheCapstanFactor) {
   for (const auto& [turn, friction, EA] : {std::tuple(0.5 * M_PI, 0.3, 20.0), {3.0, 0.1, 1e3}, {0.5, 1.0, 20.0}}) {
     SCOPED_TRACE(testing::Message() << "turn " << turn << " friction " << friction << " EA " << EA);
-    TraceRequest request;
-    Scene& scene = request.scene;
-    scene.name = "drawn_cord";
-    const double c = std::cos(turn), s = std::sin(turn);
-    scene.nodes = {{"end", -1.0, 0.0, true, true}, {"eye", 0.0, 0.0, true, true}, {"drawn", c, -s}};
-    scene.superelements = {{{"drawn"}, {s * s, s * c, s * c, c * c}}};
-    Tendon cord;
-    cord.name = "cord";
-    cord.nodes = {"end", "eye", "drawn"};
-    cord.EA = EA;
-    cord.friction = friction;
-    scene.tendons = {cord};
-    Stage pull, let_go;
-    pull.name = "pull";
-    pull.loads = {{"drawn", c, -s}};
+    TraceRequest request = DrawnCord(turn, friction, EA);
+    Stage& let_go = request.program.emplace_back();
     let_go.name = "let_go";
-    let_go.loads = {{"drawn", -c, s}};
+    let_go.loads = {{"drawn", -std::cos(turn), std::sin(turn)}};
     let_go.target = 0.9;
-    request.program = {pull, let_go};
-    request.options.record = {"sections"};
     request.options.step = 0.05;
     const TracedPath path = TraceByMpec(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;

@@ -14,6 +14,7 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/validate.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -30,15 +31,6 @@ Node At(const std::string& name, double x, double y, const std::string& body) {
   return {name, x, y, false, false, false, body};
 }
 
-Load On(const std::string& body, double fx, double fy, bool constant = false) {
-  Load load;
-  load.body = body;
-  load.fx = fx;
-  load.fy = fy;
-  load.constant = constant;
-  return load;
-}
-
 RigidBody Ground(double x, double y) { return {"ground", x, y, true, true, true}; }
 
 // A bob of the weight W on a rod of the length l hangs at the angle atan(F / W) under a push F.
@@ -52,7 +44,7 @@ TEST(Pins, APendulumHangsInTheDirectionOfItsForce) {
       scene.bodies = {{"bob", 0.0, -length}};
       scene.nodes = {{"hook", 0.0, 0.0, true, true}, At("eye", 0.0, 0.0, "bob")};
       scene.pins = {{{"eye", "hook"}}};
-      scene.loads = {On("bob", 0.0, -weight, true), On("bob", weight, 0.0)};
+      scene.loads = {LoadOnBody("bob", 0.0, -weight, true), LoadOnBody("bob", weight, 0.0)};
       request.options.stop = {{"load_factor", ">", 3.0}};
       const TracedPath path = TraceIncrements(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
@@ -80,7 +72,8 @@ TraceRequest DoublePendulum() {
                  At("above", 0.0, -1.0, "upper"),
                  At("below", 0.0, -1.0, "lower")};
   scene.pins = {{{"top", "hook"}}, {{"above", "below"}}};
-  scene.loads = {On("upper", 0.0, -1.0, true), On("lower", 0.0, -0.7, true), On("lower", 1.0, 0.0)};
+  scene.loads = {LoadOnBody("upper", 0.0, -1.0, true), LoadOnBody("lower", 0.0, -0.7, true),
+                 LoadOnBody("lower", 1.0, 0.0)};
   request.options.stop = {{"load_factor", ">", 2.0}};
   return request;
 }
@@ -124,7 +117,7 @@ TEST(Pins, AFourBarLinkageWithASpring) {
                    At("c1", 0.0, 1.0, "crank"),  At("k0", 0.0, 1.0, "coupler"), At("k1", 2.0, 1.2, "coupler"),
                    At("r1", 2.0, 1.2, "rocker"), At("r0", 2.0, 0.0, "rocker")};
     scene.pins = {{{"o", "c0"}, kSpring, angle, "drive"}, {{"c1", "k0"}}, {{"k1", "r1"}}, {{"r0", "p"}}};
-    scene.loads = {On("coupler", force.x(), force.y())};
+    scene.loads = {LoadOnBody("coupler", force.x(), force.y())};
     request.options.stop = {{"crank.rotation", "<", -0.8}};
     const TracedPath path = TraceIncrements(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
@@ -166,7 +159,7 @@ TEST(Pins, AnArchOfThreeHinges) {
                  At("left_foot", -2.0, 0.0, "left"),   At("left_crown", 0.0, 1.0, "left"),
                  At("right_crown", 0.0, 1.0, "right"), At("right_foot", 2.0, 0.0, "right")};
   scene.pins = {{{"left_foot", "a"}}, {{"left_crown", "right_crown"}}, {{"right_foot", "b"}}};
-  scene.loads = {On("left", 0.0, -1.0), On("right", 0.5, 0.0)};
+  scene.loads = {LoadOnBody("left", 0.0, -1.0), LoadOnBody("right", 0.5, 0.0)};
   request.options.stop = {{"load_factor", ">", 1.0}};
   for (const bool swapped : {false, true}) {
     if (swapped)
@@ -205,7 +198,7 @@ TEST(Pins, LeastForcesWhereEquilibriumDoesNotTellThem) {
     scene.pins.push_back({{"low" + name, "ground" + name}});
     scene.pins.push_back({{"high" + name, "top" + name}});
   }
-  scene.loads = {On("top", 0.0, 1.0, true), On("top", 1.0, 0.0)};
+  scene.loads = {LoadOnBody("top", 0.0, 1.0, true), LoadOnBody("top", 1.0, 0.0)};
   request.options.stop = {{"load_factor", ">", 2.0}};
   const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
@@ -304,8 +297,8 @@ TEST(Pins, AStandingRodFallsOver) {
       scene.bodies = {Ground(0.0, 0.0), {"rod", 0.0, length}};
       scene.nodes = {At("foot", 0.0, 0.0, "rod")};
       scene.pins = {{{"ground", "foot"}, kSpring}};
-      scene.loads = {On("rod", 0.0, -critical)};
-      if (push > 0.0) scene.loads.push_back(On("rod", push * critical, 0.0, true));
+      scene.loads = {LoadOnBody("rod", 0.0, -critical)};
+      if (push > 0.0) scene.loads.push_back(LoadOnBody("rod", push * critical, 0.0, true));
       request.options.stop = {{"load_factor", ">", 1.4}};
       const TracedPath path = TraceIncrements(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
@@ -372,10 +365,10 @@ TraceRequest SliderCrank() {
                  At("k1", 2.0, 0.0, "rod"),   {"above", 2.0, 3.0, true, true}};
   scene.bars = {{{"slider", "wall"}, 2.0}, {{"slider", "above"}, 4.0}};
   scene.pins = {{{"o", "c0"}}, {{"c1", "k0"}, 0.2, 0.1}, {{"k1", "slider"}, 0.0, 0.0, "wrist"}};
-  scene.loads = {On("rod", 0.0, -0.01, true)};
+  scene.loads = {LoadOnBody("rod", 0.0, -0.01, true)};
   request.program.resize(3);
   request.program[0].name = "push";
-  request.program[0].loads = {On("rod", 0.2, 0.0)};
+  request.program[0].loads = {LoadOnBody("rod", 0.2, 0.0)};
   request.program[1].name = "move";
   request.program[1].support_motions = {{"wall", -0.3, 0.0}, {"o", 0.0, 0.2}};
   request.program[2].name = "back";
@@ -444,7 +437,7 @@ TEST(Pins, ABoxIsPulledByALink) {
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
   scene.contacts = {{"a", "floor"}, {"b", "floor"}};
   scene.pins = {{{"eye", "end"}}};
-  scene.loads = {On("box", 0.0, -1.0, true), On("link", 0.01, 0.0, true), On("link", 1.0, 0.0)};
+  scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("link", 0.01, 0.0, true), LoadOnBody("link", 1.0, 0.0)};
   request.options.max_increments = 100;
   const TracedPath path = TraceIncrements(request);
   ASSERT_FALSE(path.increments.empty()) << path.result.message;

@@ -11,6 +11,7 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/surface.h"
 #include "support/curved_obstacles.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -21,14 +22,7 @@ using Eigen::Vector2d;
 
 constexpr double kExact = 1e-7;  // contacts of bodies give way by 1e-8 of their forces, over the radius of the curve
 
-Load OfBody(double fx, double fy, bool constant) {
-  Load load;
-  load.body = "disc";
-  load.fx = fx;
-  load.fy = fy;
-  load.constant = constant;
-  return load;
-}
+Load OfBody(double fx, double fy, bool constant) { return LoadOnBody("disc", fx, fy, constant); }
 
 Load Moment(double moment) {
   Load load = OfBody(0.0, 0.0, false);
@@ -129,8 +123,6 @@ TEST(RollingOnCurves, ADiscInAGrooveSlipsOrClimbsTheFlank) {
         TraceRequest request = OnFloor({0.0, radius}, radius, groove, {OfBody(0.0, -1.0, true), Moment(-radius)});
         request.options.max_increments = 200;
         request.options.stop = {{"disc.x", ">", 0.9 * run * std::cos(flank)}};
-        // No energy opposes the turn of a disc that slips in its place: there is no verdict.
-        request.options.stability = DefaultTrue::kFalse;
         const TracedPath path = TraceIncrements(request);
         const double steepest = std::min(flank, std::atan(friction));
         double largest = 0.0, farthest = 0.0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact_path/verify/verify_path.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "verify/disturbance.h"
 
@@ -54,16 +55,6 @@ void ExpectVerdictsFound(const TracedPath& path, int open = 0) {
   EXPECT_GE(found + static_cast<std::size_t>(open), changed) << Listed(tampered);
 }
 
-Load OfBody(const std::string& body, double fx, double by, double moment, bool constant) {
-  Load load;
-  load.body = body;
-  load.fx = fx;
-  load.by = by;
-  load.moment = moment;
-  load.constant = constant;
-  return load;
-}
-
 // A body with a round foot of the radius r stands on a drum of the radius R, or a floor, its weight W at the height h
 // above the foot. Turned by theta it has rolled round by phi = theta r / (r + R), and needs the moment
 //   M = W ((r - h) sin theta - r sin phi),  dM/dtheta = W ((r - h) cos theta - r^2 / (r + R) cos phi)
@@ -86,7 +77,7 @@ TEST(Verdicts, ARoundFootRocks) {
         ContactCandidate rolls;
         rolls.obstacles = {"rim", "ground"};
         scene.contacts = {rolls};
-        scene.loads = {OfBody("rocker", 0.0, -1.0, 0.0, true), OfBody("rocker", 0.0, 0.0, unit, false)};
+        scene.loads = {LoadOnBody("rocker", 0.0, -1.0, true), LoadOnBody("rocker", 0.0, 0.0, false, unit)};
         request.options.max_increments = 25;
         request.options.step = 0.05;
         const TracedPath path = TraceIncrements(request);
@@ -119,7 +110,7 @@ TEST(Verdicts, ARodStandsOnASpring) {
       scene.nodes = {{"foot", 0.0, 0.0}};
       scene.nodes[0].body = "rod";
       scene.pins = {{{"ground", "foot"}, spring}};
-      scene.loads = {OfBody("rod", 0.0, -spring / length, 0.0, false)};
+      scene.loads = {LoadOnBody("rod", 0.0, -spring / length)};
       request.options.stop = {{"load_factor", ">", 1.8}};
       const TracedPath path = TraceIncrements(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
@@ -161,7 +152,7 @@ TEST(Verdicts, EyesOfABodySlide) {
     tendon.friction = friction;
     scene.tendons = {tendon};
     scene.superelements = {{{"foot"}, {0.235, 0.0, 0.0, 0.33}}};
-    scene.loads = {OfBody("load", 0.0, -1.0, 0.0, true), OfBody("load", 0.18, -0.98, 0.126, false)};
+    scene.loads = {LoadOnBody("load", 0.0, -1.0, true), LoadOnBody("load", 0.18, -0.98, false, 0.126)};
     request.options.stop = {{"load_factor", ">", 1.0}};
     const TracedPath path = TraceIncrements(request);
     EXPECT_TRUE(std::any_of(path.increments.begin(), path.increments.end(), [](const Increment& increment) {

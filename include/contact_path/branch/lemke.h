@@ -10,6 +10,9 @@
 
 namespace contact_path {
 
+// What breaks ties is this share of the data of a problem.
+inline constexpr double kOfTies = 1e-9;
+
 // equations (x, w, z) = right, x free, 0 <= w, 0 <= z, w . z = 0. As many equations as x and w have entries.
 struct ComplementarityProblem {
   Eigen::SparseMatrix<double> equations;  // columns: x, w, z

@@ -75,6 +75,8 @@ class StabilityProblem {
   Eigen::VectorXd FallingMode() const;
   // The sense in which the slips of the null direction are those of the contacts; 0: in none.
   double PossibleSense() const;
+  // The stiffness where a slip acts, times its motion there squared.
+  double EnergyAt(const Slip& slip, const Eigen::VectorXd& motion) const;
   Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
 
   const Structure& structure_;
@@ -98,6 +100,7 @@ class StabilityProblem {
   Eigen::MatrixXd motions_;        // by unit slips, columns
   Eigen::MatrixXd H_;
   double stiffest_slip_ = 0.0;     // largest term of an entry of H, whose terms may cancel
+  Eigen::VectorXd slip_rounding_;  // of the diagonal of H
   Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
   Eigen::MatrixXd null_;           // columns du; none where the equations are not known to be singular
