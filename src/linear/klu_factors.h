@@ -5,6 +5,7 @@
 #include <klu.h>
 
 #include <Eigen/SparseCore>
+#include <vector>
 
 namespace contact_path {
 
@@ -31,10 +32,13 @@ class KluFactors {
 
  private:
   void FreeNumeric();
+  void Analyze(Eigen::SparseMatrix<double>* matrix);
   bool Refactorize(Eigen::SparseMatrix<double>* matrix);
   bool Regular();
 
   klu_common common_{};
+  int size_ = 0, moved_ = 0;  // moved_: the row that stands last
+  std::vector<int> rows_;     // of the entries, as they stand
   double pivot_ratio_ = 0.0;
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;

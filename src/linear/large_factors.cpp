@@ -16,16 +16,6 @@ namespace {
 
 constexpr std::size_t kMostMoved = 32;  // of all matrices that one has served
 
-// The first equation that lacks the unknown of its number: equations of equilibrium come first, and have it.
-Eigen::Index FirstWithoutDiagonal(const Eigen::SparseMatrix<double>& transposed) {
-  for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
-    const int* const begin = transposed.innerIndexPtr() + transposed.outerIndexPtr()[column];
-    const int* const end = transposed.innerIndexPtr() + transposed.outerIndexPtr()[column + 1];
-    if (!std::binary_search(begin, end, static_cast<int>(column))) return column;
-  }
-  return transposed.cols();
-}
-
 // The system itself; the unknown that spoils the symmetry of the pattern, as a load factor, comes last.
 Frame FrameOf(const Eigen::SparseMatrix<double>& transposed) {
   Frame frame;
@@ -120,7 +110,7 @@ bool LargeFactors::SetValues(const Eigen::SparseMatrix<double>& transposed, cons
 }
 
 bool LargeFactors::FactorizeBordered(bool any_border) {
-  changed_.clear();
+  update_.Clear();
   made_ = nullptr;
   made_ = std::make_shared<OrderedFactors>();
   made_->ordering = ordering_;
@@ -168,23 +158,32 @@ bool LargeFactors::Update(const Frame& frame) {
   ordering_ = made_->ordering;
   border_ = made_->values.tail(static_cast<Eigen::Index>(ordering_->places.size()));
   direction_ = made_->along;
-  if (changed_.empty()) return IsRegular(false);
-  std::map<int, Eigen::VectorXd>& moved = made_->moved;
-  for (const int k : changed_) {
-    if (moved.count(k) > 0) continue;
-    if (moved.size() == kMostMoved) return false;
-    right_ = Eigen::VectorXd::Unit(row_.size(), k);
-    made_->factors.SolveTransposed(right_.data(), moved.emplace(k, row_.size()).first->second.data());
+  update_.Clear();
+  return (changed_.empty() || TakeDifferences()) && IsRegular(false);
+}
+
+bool LargeFactors::TakeDifferences() {
+  const std::vector<int>&starts = ordering_->analysis.Starts(), &entries = ordering_->analysis.Entries();
+  Eigen::MatrixXd moved(row_.size(), static_cast<Eigen::Index>(changed_.size()));
+  std::vector<Eigen::Triplet<double>> differences;
+  for (Eigen::Index j = 0; j < moved.cols(); ++j) {
+    const auto k = static_cast<std::size_t>(changed_[static_cast<std::size_t>(j)]);
+    auto found = made_->moved.find(changed_[static_cast<std::size_t>(j)]);
+    if (found == made_->moved.end()) {
+      if (made_->moved.size() == kMostMoved) return false;
+      right_ = Eigen::VectorXd::Unit(row_.size(), static_cast<Eigen::Index>(k));
+      found = made_->moved.emplace(changed_[static_cast<std::size_t>(j)], row_.size()).first;
+      made_->factors.SolveTransposed(right_.data(), found->second.data());
+    }
+    moved.col(j) = found->second;
+    for (int at = starts[k]; at < starts[k + 1]; ++at)
+      differences.emplace_back(j, entries[static_cast<std::size_t>(at)], values_[at] - made_->values[at]);
   }
-  const auto count = static_cast<Eigen::Index>(changed_.size());
-  Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(count, count);
-  for (Eigen::Index j = 0; j < count; ++j)
-    coupling.col(j) += Differences(moved.at(changed_[static_cast<std::size_t>(j)]));
-  if (!coupling.allFinite()) return false;
-  coupling_.compute(coupling);
-  if (!(coupling_.rcond() > kLeastCoupling)) return false;
-  TakeDifferences(&direction_);
-  return IsRegular(false);
+  LowRankUpdate::Differences of_rows(moved.cols(), moved.rows());
+  of_rows.setFromTriplets(differences.begin(), differences.end());
+  if (!update_.Set(std::move(moved), std::move(of_rows))) return false;
+  update_.Correct(direction_);
+  return true;
 }
 
 bool LargeFactors::ReplaceRow(const Eigen::VectorXd& row) {
@@ -205,19 +204,6 @@ bool LargeFactors::IsRegular(bool any_border) {
   return std::abs(along_) > tolerances::kSingularPivot * row_.norm() * length;
 }
 
-Eigen::VectorXd LargeFactors::Differences(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd differences = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(changed_.size()));
-  ForEachDifference([&](Eigen::Index j, int unknown, double value) { differences[j] += value * x[unknown]; });
-  return differences;
-}
-
-void LargeFactors::TakeDifferences(Eigen::VectorXd* x) const {
-  if (changed_.empty()) return;
-  const Eigen::VectorXd shares = coupling_.solve(Differences(*x));
-  for (std::size_t j = 0; j < changed_.size(); ++j)
-    *x -= shares[static_cast<Eigen::Index>(j)] * made_->moved.at(changed_[j]);
-}
-
 void LargeFactors::Solve(double* x, Eigen::Index columns) {
   const std::size_t equations = equations_.size();
   solution_.resize(row_.size());
@@ -229,7 +215,7 @@ void LargeFactors::Solve(double* x, Eigen::Index columns) {
       solution_.setZero();
     } else {
       made_->factors.SolveTransposed(right_.data(), solution_.data());
-      TakeDifferences(&solution_);
+      update_.Correct(solution_);
     }
     solution_ += (column[equations] - row_.dot(solution_)) / along_ * direction_;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) column[i] = solution_[unknowns_[i]];
@@ -243,13 +229,7 @@ void LargeFactors::SolveTransposed(double* y) {
   right_ -= last * row_;
   for (std::size_t k = 0; k < ordering_->places.size(); ++k)
     right_[ordering_->places[k]] += last * border_[static_cast<Eigen::Index>(k)];
-  if (!changed_.empty()) {
-    Eigen::VectorXd along(static_cast<Eigen::Index>(changed_.size()));
-    for (std::size_t j = 0; j < changed_.size(); ++j)
-      along[static_cast<Eigen::Index>(j)] = made_->moved.at(changed_[j]).dot(right_);
-    const Eigen::VectorXd shares = coupling_.transpose().solve(along);
-    ForEachDifference([&](Eigen::Index j, int unknown, double value) { right_[unknown] -= shares[j] * value; });
-  }
+  update_.PrepareTransposed(&right_);
   solution_.resize(row_.size());
   made_->factors.Solve(right_.data(), solution_.data());
   for (std::size_t e = 0; e < equations_.size(); ++e) y[e] = solution_[equations_[e]];
@@ -258,7 +238,7 @@ void LargeFactors::SolveTransposed(double* y) {
 
 std::optional<Eigen::Index> LargeFactors::NegativeEigenvalues(Eigen::Index symmetric) const {
   const bool last = unknowns_[static_cast<std::size_t>(symmetric)] + 1 == static_cast<int>(row_.size());
-  if (!last || !changed_.empty()) return std::nullopt;
+  if (!last || !update_.IsEmpty()) return std::nullopt;
   std::vector<bool> turned(static_cast<std::size_t>(row_.size()), false);
   const auto constraints = static_cast<Eigen::Index>(equations_.size()) - symmetric;
   for (auto k = equations_.begin() + symmetric; k != equations_.end(); ++k) turned[static_cast<std::size_t>(*k)] = true;
@@ -267,7 +247,7 @@ std::optional<Eigen::Index> LargeFactors::NegativeEigenvalues(Eigen::Index symme
 }
 
 int LargeFactors::DeterminantSign() const {
-  const bool turned = (odd_ != (along_ < 0.0)) != (!changed_.empty() && coupling_.determinant() < 0.0);
+  const bool turned = (odd_ != (along_ < 0.0)) != update_.TurnsDeterminant();
   return turned ? -made_->factors.DeterminantSign() : made_->factors.DeterminantSign();
 }
 

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_SRC_LINEAR_LARGE_FACTORS_H_
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "contact_path/linear/frame.h"
 #include "contact_path/linear/orderings.h"
+#include "linear/low_rank_update.h"
 #include "linear/ordering.h"
 
 namespace contact_path {
@@ -20,9 +20,8 @@ namespace contact_path {
 // few entries, whose places stay, stands for it. N = [J; border], N v = (0, 1); the solution of M x = (b, last) is
 // x = y + a v where N y = (b, 0) and row . x = last, and det M = det N (row . v). N is regular where J has full rank
 // and the border is not orthogonal to its null vector.
-// Where N differs in few equations K from the matrix N0 of other factors of the frame, as where few laws have
-// changed their states at one point, these serve: N = N0 + E D, E the columns of 1 of K, and with Z = N0^-1 E and C = 1
-// + D Z, N^-1 = N0^-1 - Z C^-1 D N0^-1 and det N = det N0 det C (Sherman-Morrison-Woodbury).
+// Where N differs in few equations from the matrix N0 of other factors of the frame, as where few laws have changed
+// their states at one point, these serve.
 class LargeFactors {
  public:
   void Free();
@@ -52,24 +51,13 @@ class LargeFactors {
   // By factors that solvers of the frame have; false if they do not serve.
   bool Update(const Frame& frame);
   bool IsRegular(bool any_border);
-  // D x, and x -= Z C^-1 D x.
-  Eigen::VectorXd Differences(const Eigen::VectorXd& x) const;
-  void TakeDifferences(Eigen::VectorXd* x) const;
-  // Each calls visit(j, unknown, value) for the entries of D, j the place in K.
-  template <typename Visit>
-  void ForEachDifference(Visit visit) const {
-    for (std::size_t j = 0; j < changed_.size(); ++j)
-      for (int at = made_->ordering->analysis.Starts()[static_cast<std::size_t>(changed_[j])];
-           at < made_->ordering->analysis.Starts()[static_cast<std::size_t>(changed_[j]) + 1]; ++at)
-        visit(static_cast<Eigen::Index>(j), made_->ordering->analysis.Entries()[static_cast<std::size_t>(at)],
-              values_[at] - made_->values[at]);
-  }
+  bool TakeDifferences();
 
   Orderings own_orderings_;  // of systems without a frame
   std::shared_ptr<const Ordering> ordering_;
-  std::shared_ptr<OrderedFactors> made_;           // of N0
-  std::vector<int> changed_;                       // K
-  Eigen::PartialPivLU<Eigen::MatrixXd> coupling_;  // C
+  std::shared_ptr<OrderedFactors> made_;  // of N0
+  std::vector<int> changed_;              // equations in which N differs from N0
+  LowRankUpdate update_;                  // of N0 to N
   std::vector<int> unknowns_, equations_;
   bool odd_ = false;
   Eigen::VectorXd values_;           // of J

@@ -9,11 +9,13 @@
 #include <cmath>
 #include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "contact_path/linear/large_system.h"
 #include "contact_path/linear/linear_solver_error.h"
 #include "contact_path/tolerances.h"
+#include "linear/low_rank_update.h"
 
 namespace contact_path {
 namespace {
@@ -194,21 +196,20 @@ struct SymmetricFactors::Large {
     if (Information(1) == kOutOfMemory) throw std::bad_alloc();
     if (Information(1) < 0 && Information(1) != kSingular) throw LinearSolverError("MUMPS", Information(1));
     negative = Information(12);
-    changed.clear();
+    update.Clear();
     return Information(1) != kSingular && Information(28) == 0;
   }
 
   // Of a matrix of the same pattern that differs from the last one, `last`, in few rows and columns: last + E d E', E
-  // the columns of 1 of these rows. With Z = last^-1 E and G = E' Z its inverse is last^-1 - Z (1 + d G)^-1 d Z', and
-  // [last E; E' -d^-1] has its negative eigenvalues and those of -d^-1, or those of last and of -d^-1 - G (Haynsworth),
-  // here with d = Q diag(q) Q' between roots of |q|.
+  // the columns of 1 of these rows. With G = E' last^-1 E, [last E; E' -d^-1] has its negative eigenvalues and those of
+  // -d^-1, or those of last and of -d^-1 - G (Haynsworth), here with d = Q diag(q) Q' between roots of |q|.
   bool Update(const Eigen::SparseMatrix<double>& matrix) {
     const auto same = [](const int* a, const int* b, Eigen::Index count) { return std::equal(a, a + count, b); };
     if (last.rows() != matrix.rows() || last.nonZeros() != matrix.nonZeros() ||
         !same(last.outerIndexPtr(), matrix.outerIndexPtr(), matrix.cols() + 1) ||
         !same(last.innerIndexPtr(), matrix.innerIndexPtr(), matrix.nonZeros()))
       return false;
-    changed.clear();
+    std::vector<int> changed;
     for (int k = 0; k < static_cast<int>(matrix.cols()); ++k) {
       if (std::equal(matrix.valuePtr() + matrix.outerIndexPtr()[k], matrix.valuePtr() + matrix.outerIndexPtr()[k + 1],
                      last.valuePtr() + matrix.outerIndexPtr()[k]))
@@ -217,23 +218,22 @@ struct SymmetricFactors::Large {
       changed.push_back(k);
     }
     negative = Information(12);
+    update.Clear();
     if (changed.empty()) return true;
     const auto count = static_cast<Eigen::Index>(changed.size());
-    difference.resize(count, count);
-    moved = Eigen::MatrixXd::Zero(matrix.rows(), count);
+    Eigen::MatrixXd difference(count, count), moved = Eigen::MatrixXd::Zero(matrix.rows(), count), G(count, count);
+    LowRankUpdate::Differences of_rows(count, matrix.rows());
     for (Eigen::Index j = 0; j < count; ++j) {
       const int column = changed[static_cast<std::size_t>(j)];
       moved(column, j) = 1.0;
       for (Eigen::Index i = 0; i < count; ++i) {
         const int row = changed[static_cast<std::size_t>(i)];
-        difference(i, j) = matrix.coeff(row, column) - last.coeff(row, column);
+        of_rows.insert(i, column) = difference(i, j) = matrix.coeff(row, column) - last.coeff(row, column);
       }
     }
     SolveLast(&moved);
-    const Eigen::MatrixXd G = AtChanged(moved);
-    if (!G.allFinite()) return false;
-    coupling.compute(Eigen::MatrixXd::Identity(count, count) + difference * G);
-    if (!(coupling.rcond() > kLeastCoupling)) return false;
+    for (Eigen::Index i = 0; i < count; ++i) G.row(i) = moved.row(changed[static_cast<std::size_t>(i)]);
+    if (!update.Set(std::move(moved), std::move(of_rows))) return false;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(difference);
     const Eigen::MatrixXd roots = of.eigenvectors() * of.eigenvalues().cwiseAbs().cwiseSqrt().asDiagonal();
     Eigen::MatrixXd condensed = -roots.transpose() * G * roots;
@@ -243,15 +243,9 @@ struct SymmetricFactors::Large {
     return true;
   }
 
-  Eigen::MatrixXd AtChanged(const Eigen::MatrixXd& of) const {
-    Eigen::MatrixXd at(static_cast<Eigen::Index>(changed.size()), of.cols());
-    for (std::size_t j = 0; j < changed.size(); ++j) at.row(static_cast<Eigen::Index>(j)) = of.row(changed[j]);
-    return at;
-  }
-
   void Solve(Eigen::MatrixXd* right) {
     SolveLast(right);
-    if (!changed.empty()) *right -= moved * coupling.solve(difference * AtChanged(*right));
+    update.Correct(*right);
   }
 
   void SolveLast(Eigen::MatrixXd* right) {
@@ -267,9 +261,7 @@ struct SymmetricFactors::Large {
   Eigen::Index negative = 0;
   Eigen::SparseMatrix<double> last;  // without its scale; empty: not to be updated
   Eigen::VectorXd scale;
-  std::vector<int> changed;
-  Eigen::MatrixXd difference, moved;              // d, Z
-  Eigen::PartialPivLU<Eigen::MatrixXd> coupling;  // 1 + d G
+  LowRankUpdate update;  // of last
   std::vector<int> rows, columns;
   std::vector<double> values;
 };

@@ -2,6 +2,8 @@
 #ifndef CONTACT_PATH_LINEAR_FRAME_H_
 #define CONTACT_PATH_LINEAR_FRAME_H_
 
+#include <Eigen/SparseCore>
+#include <algorithm>
 #include <vector>
 
 namespace contact_path {
@@ -21,6 +23,17 @@ struct Frame {
   bool odd = false;                // whether an odd number of exchanges sorts `unknowns`
   Orderings* orderings = nullptr;  // which the solvers of the systems of a structure share; not null
 };
+
+// The first column without an entry on the diagonal, or cols(): of a transposed Jacobian, whose equations of
+// equilibrium come first, the number of its motions.
+inline Eigen::Index FirstWithoutDiagonal(const Eigen::SparseMatrix<double>& matrix) {
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    const int* const begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column];
+    const int* const end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column + 1];
+    if (!std::binary_search(begin, end, static_cast<int>(column))) return column;
+  }
+  return matrix.cols();
+}
 
 }  // namespace contact_path
 

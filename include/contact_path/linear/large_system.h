@@ -12,10 +12,8 @@ namespace contact_path {
 // method branch has the same bytes with all of them, its stability included.
 inline constexpr Eigen::Index kLargeSystem = 3000;
 
-// Factors serve a matrix that differs in so many equations at most: more solutions take as long as a factorisation. And
-// the smallest pivot of the update, of its largest, takes four digits at most.
+// Factors serve a matrix that differs in so many equations at most: more solutions take as long as a factorisation.
 inline constexpr std::size_t kMostChanged = 16;
-inline constexpr double kLeastCoupling = 1e-4;
 
 }  // namespace contact_path
 
