@@ -21,11 +21,9 @@ namespace {
 constexpr double kFewCombinations = 8.0;         // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;           // numbers that may be held for that
 constexpr std::size_t kMostCondensedLaws = 512;  // of more, dense equations take longer than the sparse ones of all
-constexpr std::size_t kMostBothWays = 64;        // of laws whose solutions are not unique
 // Shares of the springs of a rate problem: those that nearly stand for the contacts, then ever softer ones.
 constexpr double kMostShare = 1e6, kLeastShare = 1e-8, kNextShare = 0.1;
 constexpr double kMostCombinations = 4096.0;  // 4^6
-constexpr double kMostIfNone = 65536.0;       // 4^8: tried before the path is said to end
 
 using Options = BranchFinder::Options;
 
@@ -147,9 +145,8 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   const bool solves = combinations > few && !arrival.singular;
   std::optional<RatePairs> pairs;
   if (solves && !between_pieces) pairs.emplace(laws, options, weakly_active);
-  const std::size_t most = pairs && pairs->BothWays() ? kMostBothWays : kMostCondensedLaws;
-  const bool condenses = solves && weakly_active.size() <= most && entries <= kMostCondensed;
   const bool few_enough = combinations <= kMostCombinations;
+  const bool condenses = solves && weakly_active.size() <= kMostCondensedLaws && entries <= kMostCondensed;
   if (condenses && !between_pieces) problem.emplace(structure, laws, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   // Curvatures of pieces differ.
@@ -183,10 +180,6 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
       TryAll(options, excluded, &finder, &result);
     else
       TryLikely(laws, options, condensed, &finder, &result);
-  }
-  if (result.branches.empty() && result.complete_by == Completeness::kNone && combinations <= kMostIfNone) {
-    TryAll(options, excluded, &finder, &result);
-    result.complete_by = Completeness::kAllCombinations;
   }
   result.rigid_modes = finder.rigid_modes();
   result.cancelled = finder.Cancelled();
