@@ -153,7 +153,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& ends, ArcStep* at) {
     if (PassesTheTarget(at->step.start, *point, arc->LoadFactor(), ends, &at->event)) continue;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
     if (EndsBeside(at->step)) return false;
-    if (!(at->step.length > tolerances::kNoMove)) {
+    if (!(at->step.length > tolerances::kActive)) {
       at->step.length = 0.0;
       return true;
     }

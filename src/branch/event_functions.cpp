@@ -326,6 +326,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   if (ends.load_factor) target = FirstAt(load_factor, *ends.load_factor, step.length);
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Limit> open_ends;
+  // Short steps tell rates by differences of values that rounding has its share in.
+  const double zero_rate = std::max(tolerances::kRate, tolerances::kMargin * tolerances::kRounding / step.length);
   const std::vector<Limit> inequalities = equations.LimitsInReach(step.start.x, kReach * step.length, &open_ends);
   for (const Limit& end : open_ends) {
     Quintic beyond = FunctionOf(equations, step, end);
@@ -334,7 +336,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   }
   for (const Limit& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
-    const double zero = equations.IsOfRate(constraint) ? tolerances::kRate : arc->RoundingOf(constraint);
+    const double zero = equations.IsOfRate(constraint) ? zero_rate : arc->RoundingOf(constraint);
     double where = 0.0;
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider({*t, constraint});

@@ -280,6 +280,25 @@ TEST(Toys, ARateThatMayNotTurn) {
   EXPECT_NEAR(walk.at().x[1], 1.0, 1e-12);
 }
 
+// y = 0.3 + 1.8e-6 s: of short steps rounding has a larger share in the differences of y.
+TEST(Toys, RoundingTurnsNoRateOnShortSteps) {
+  Walk walk(Line({{[](const Unknowns& x) { return Along(0.3) + Along(1.8e-6) * x[0]; }, true}}), Vector2d(0.1, 0.1),
+            Vector2d(1.0, 1.0));
+  EXPECT_EQ(walk.ToEvent(100, {}, {2e-11, 3e-11, 1e-3, 0.98}).event.Kind(), EventKind::kNone);
+  EXPECT_GT(walk.at().x[1], 0.1 + 1e-9);
+}
+
+// Nearer than what tells one point from another.
+TEST(Toys, ATargetNextToTheStartIsReachedInPlace) {
+  StepEnds ends;
+  ends.load_factor = 0.1 + 2e-11;
+  Walk walk(Line({}), Vector2d(0.1, 0.1), Vector2d(1.0, 1.0));
+  const ArcStep step = walk.ToEvent(1, ends);
+  EXPECT_EQ(step.event.Kind(), EventKind::kTarget);
+  EXPECT_EQ(step.step.length, 0.0);
+  EXPECT_EQ(walk.at().x[1], *ends.load_factor);
+}
+
 TEST(Toys, TargetsAndSamples) {
   StepEnds ends;
   ends.load_factor = -0.3;
