@@ -153,11 +153,13 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& ends, ArcStep* at) {
     if (PassesTheTarget(at->step.start, *point, arc->LoadFactor(), ends, &at->event)) continue;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
     if (EndsBeside(at->step)) return false;
-    if (!(at->step.length > tolerances::kActive)) {
+    if (!(at->step.length > tolerances::kNoMove)) {
       at->step.length = 0.0;
       return true;
     }
     DropRoundedSecond(&at->step);
+    // What fails at an end so near fails at the start, too; an interpolation in between is rounding.
+    if (!(at->step.length > tolerances::kActive)) return true;
     const StepEvent earlier = FirstEvent(arc, at->step, ends);
     if (earlier.Kind() == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     at->event = earlier;

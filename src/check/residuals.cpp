@@ -13,7 +13,8 @@ namespace {
 using check::Real;
 using check::Vector;
 
-// Over L: a pin that has to give way by more holds its nodes together no more, as where supports pull them apart.
+// Over L: a pin that has to give way by more holds its nodes together no more, as where supports pull them apart, and
+// bodies that do are clamped.
 constexpr Real kMostGiven = 1e-6L;
 
 // The larger of the two. What is no finite double counts as infinite, so that NaN never passes as small.
@@ -98,7 +99,8 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const bool without_reaction = now.rn[i] == 0.0 && now.rt[i] == 0.0;
     if (without_reaction && contact.SurelyOpen(to)) continue;
     const Real give = contact.Gives() ? check::kGive / scaling.force : 0.0L;
-    const Real gap = contact.Gap(to) / scaling.length + give * now.rn[i];
+    const Real given = give * now.rn[i];
+    const Real gap = contact.Gap(to) / scaling.length + (given <= kMostGiven ? given : 0.0L);
     if (without_reaction) {  // then only a gap that is closed too far breaks a rule
       residuals.penetration = Worst(residuals.penetration, -gap);
       residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));

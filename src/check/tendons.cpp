@@ -160,7 +160,7 @@ class TendonElement : public Element {
 };
 
 constexpr Real kSoft = 1e-8L;
-constexpr Real kStraight = 1e-3L;  // [rad], round which the angle at an eye is rounded
+constexpr Real kStraight = 1e-3L;  // [rad], round which angles are rounded
 
 // W = k (l1 / a1 - l2 / a2)^2 / 2, k = kSoft EA times the shorter length at rest.
 class EvenStrainElement : public Element {
@@ -205,14 +205,13 @@ class EyeContact : public Contact {
 
   Real FrictionIn(const PlacedState& state) const override {
     const std::vector<double> values = state.Values();
-    const Real sense = before_.Radius(1);
-    if (sense != 0.0L) {
-      const Real turned = behind_.Turned(values, 0) - before_.Turned(values, 0);
-      return std::tanh(0.5L * Friction() *
-                       (before_.WrappedAtStart(1) + behind_.WrappedAtStart(0) + std::copysign(1.0L, sense) * turned));
-    }
     const Vector in = before_.Direction(values, 0), out = behind_.Direction(values, 0);
-    const Real turn = std::abs(std::atan2(Cross(in, out), Dot(in, out)));
+    Real turn = std::atan2(Cross(in, out), Dot(in, out));
+    if (const Real sense = before_.Radius(1); sense != 0.0L) {
+      turn = std::copysign(1.0L, sense) * (behind_.Turned(values, 0) - before_.Turned(values, 0));
+      turn += before_.WrappedAtStart(1) + behind_.WrappedAtStart(0);
+    }
+    turn = std::abs(turn);
     return std::tanh(0.5L * Friction() * (turn + kStraight * std::log1p(std::exp(-2.0L * turn / kStraight))));
   }
   // What is missing of a length that bears.

@@ -76,14 +76,13 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
     return before_.EA() * (Twice(of.length + z[first + 2]) / z[first + 3] - 1.0);
   };
   const Twice sum = tension(in, 0) + tension(out, 4);
-  Twice rounded;
-  if (roller_.sense == 0.0) {
-    Twice turn = atan2(Twice(in.x * out.y - in.y * out.x), Twice(in.x * out.x + in.y * out.y));
-    if (turn.value().value() < 0.0) turn = -turn;
-    rounded = turn + log(Twice(exp(Twice(turn * (-2.0 / kStraight))) + 1.0)) * kStraight;
-  } else {
-    rounded = Twice(out.turned - in.turned) * roller_.sense + roller_.wrapped;
-  }
+  Twice turn;
+  if (roller_.sense == 0.0)
+    turn = atan2(Twice(in.x * out.y - in.y * out.x), Twice(in.x * out.x + in.y * out.y));
+  else
+    turn = Twice(out.turned - in.turned) * roller_.sense + roller_.wrapped;
+  if (turn.value().value() < 0.0) turn = -turn;
+  const Twice rounded = turn + log(Twice(exp(Twice(turn * (-2.0 / kStraight))) + 1.0)) * kStraight;
   const Twice share = tanh(Twice(rounded * (0.5 * friction_))) * (sum * (0.5 / before_.EA()) + 1.0);
   const auto function_of = [](const Twice& of) {
     Function function;

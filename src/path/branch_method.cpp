@@ -208,6 +208,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     Append(BeyondHalfRound(model_, increment.residuals), &end.causes);
     Append(BehindBoundary(model_, increment.point), &end.causes);
     Append(TouchesTwice(model_, increment.point), &end.causes);
+    Append(IsClamped(model_, increment.point), &end.causes);
     return Ended(end);
   }
   departure_.NoteReactions(increment.point);

@@ -27,6 +27,8 @@
 namespace contact_path {
 namespace {
 
+constexpr double kMostGiven = 1e-6;  // scaled, by contacts of bodies
+
 constexpr std::size_t kListed = 3;    // in a message
 constexpr double kDeep = 1e-3;        // of the characteristic length: what is not as deep in an obstacle is not told
 constexpr double kWeight = 0.1;       // share of other loads from which on constant ones are no disturbance
@@ -81,10 +83,22 @@ SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int pa
 }
 
 // By dof, the diagonal of the tangent (scaled).
+// Of the elements, and of bars with a sense as if they bore.
 Eigen::VectorXd DiagonalStiffness(const Model& model, const PathPoint& point) {
   Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
   model.structure.Tangent(point.u, &tangent);
-  return tangent.diagonal().cwiseAbs();
+  Eigen::VectorXd diagonal = tangent.diagonal().cwiseAbs();
+  PortsAt at;
+  for (std::size_t i = model.contacts.size(); i < model.laws.size(); ++i) {
+    const Law& law = model.laws[i];
+    law.Evaluate(point.u, point.s, point.modes[i].piece, {}, &at);
+    for (int state = 0; state < law.NumStates(); ++state)
+      for (std::size_t p = 0; p < law.NumPorts(); ++p)
+        if (const PortRule& rule = law.In(state).ports[p]; rule.Holds() && rule.compliance > 0.0)
+          for (std::size_t a = 0; a < at.dofs.size(); ++a)
+            diagonal[at.dofs[a]] += std::pow(at[p].gradient[static_cast<Eigen::Index>(a)], 2) / rule.compliance;
+  }
+  return diagonal;
 }
 
 // The largest one of the dofs that a contact moves; 0: it moves none.
@@ -263,6 +277,14 @@ Causes TouchesTwice(const Model& model, const PathPoint& point) {
     if (model.contacts[i]->TouchesTwice(point.u, point.s, point.modes[i].piece))
       return {{sentences::kTouchesTwice, model.scene.contacts[i].Name()}};
   }
+  return {};
+}
+
+Causes IsClamped(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i)
+    if (StateOf(point, i) != ContactState::kOpen && !model.contacts[i]->Elastic() &&
+        model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece) < -kMostGiven)
+      return {{sentences::kIsClamped, model.scene.contacts[i].Name()}};
   return {};
 }
 

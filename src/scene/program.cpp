@@ -161,13 +161,15 @@ void SetLoading(const Stage& stage, Scene* scene) {
   SetMotions(stage, scene);
 }
 
-// The scene with the loads and motions of one stage at its target.
+// The scene with the loads and motions of one stage at its target, and what is constant.
 Scene LoadedAtTarget(const Stage& stage, Scene scene) {
   const double target = stage.Target();
+  const std::vector<Load> constant = scene.loads;
   SetLoading(stage, &scene);
   for (Load& load : scene.loads) load = Times(target, load);
   for (SupportMotion& motion : scene.support_motions) motion = Times(target, motion);
   for (ObstacleMotion& motion : scene.obstacle_motions) motion = Times(target, motion);
+  scene.loads.insert(scene.loads.end(), constant.begin(), constant.end());
   return scene;
 }
 

@@ -296,6 +296,16 @@ double ExtentOf(const Obstacle& obstacle) {
   return largest;
 }
 
+// What moments and turns are measured by where no length is known yet: how far nodes are from each other, and from what
+// obstacles turn about [length].
+double ArmOf(const Scene& scene) {
+  double arm = ExtentOfNodes(scene);
+  for (const ObstacleMotion& motion : scene.obstacle_motions)
+    for (const Node& node : scene.nodes)
+      if (motion.turn != 0.0) arm = std::max(arm, std::hypot(node.x - motion.about_x, node.y - motion.about_y));
+  return arm > 0.0 ? arm : 1.0;
+}
+
 }  // namespace
 
 bool HasForceScale(const Scene& scene) {
@@ -321,8 +331,9 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
                              LoadNorm(scene, index, true, scaling.length));
     if (scaling.force == 0.0) scaling.force = 1.0;
   } else {
-    const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
-    scaling.force = std::max({reference_load, stiffness * MotionNorm(scene), LoadNorm(scene, index, true),
+    const double arm = ArmOf(scene);
+    const double reference_load = LoadNorm(scene, index, false, arm), stiffness = MeanStiffness(scene);
+    scaling.force = std::max({reference_load, stiffness * MotionNorm(scene, arm), LoadNorm(scene, index, true, arm),
                               stiffness * NearestGap(scene, index) / kFarthestContact});
     scaling.length = scaling.force / stiffness;
     // Soft parts beside stiff ones move farther, though no farther than the scene is large. A power of 2 does not

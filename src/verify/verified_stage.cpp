@@ -54,6 +54,8 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     if (unit > 0.0 && unit < kSoft) contact.unit = unit;
     if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
     contact.of_parts = std::max(1.0, forces[i].of_all_parts / scaling.force);
+    if (const double give = check.Give(i); give > 0.0)
+      contact.of_parts = std::max(contact.of_parts, scaling.length / (give * scaling.force));
     const double rounding = kRoundingOfParts * std::max(stiffest, forces[i].of_all_parts);
     contact.rounding = std::max(kRounding, rounding / (scaling.force * contact.unit));
     contact.closing = std::max(contact.rounding, closing / (scaling.force * contact.unit));

@@ -45,7 +45,7 @@ struct VerifiedContact {
   double rounding = 0.0;
   // Rounding, or the largest force that closes a gap which counts as closed at the start and is not 0.
   double closing = 0.0;
-  double of_parts = 1.0;  // forces of the parts there for a motion of L, over F, at least 1
+  double of_parts = 1.0;  // forces of the parts, and of what gives way, there for a motion of L, over F, at least 1
 };
 
 // Of the loads that the load factor scales, on free components.

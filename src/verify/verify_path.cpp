@@ -7,6 +7,7 @@
 #include "contact_path/path/increment_lists.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/tolerances.h"
 #include "verify/checks.h"
 #include "verify/verified_stage.h"
 
@@ -263,7 +264,7 @@ class StageVerifier {
       const VerifiedContact& at = stage_.contacts[i];
       findings_.Bound(what + " (" + at.name + ")",
                       std::max(std::abs(a.rn - b.rn), std::abs(a.rt - b.rt)) / stage_.scaling.force,
-                      stage_.rounding + 2.0 * at.rounding * at.unit + at.of_parts * moved);
+                      stage_.rounding + 2.0 * at.rounding * at.unit + at.of_parts * (moved + tolerances::kLastDigits));
     }
   }
 

@@ -209,27 +209,29 @@ TEST(Rollers, ADrivenOneDragsTheTendonAlong) {
   ExpectNoFindings(path);
 }
 
-// Lifted, a rope leaves the roller where it is straight.
+// Lifted, a rope leaves the roller where it is straight, whether it bears something there or nothing.
 TEST(Rollers, ATendonComesOffWhereItIsStraight) {
-  for (const double friction : {0.0, 0.2}) {
-    SCOPED_TRACE(friction);
-    TraceRequest request;
-    Scene& scene = request.scene;
-    scene.name = "lifted";
-    scene.nodes = {{"a", -0.5, 0.8, true, true}, {"axle", 0.0, 1.0, true, true}, {"b", 0.5, 0.8, true, true}};
-    scene.tendons = {TendonThrough({"a", "axle", "b"}, {0.0, 0.2, 0.0}, {0.0, -1.0, 0.0}, 10.0)};
-    scene.tendons[0].friction = friction;
-    scene.tendons[0].rest_length = 1.0;
-    scene.nodes.push_back({"free", 2.0, 0.0});
-    scene.superelements = {{{"free"}, {1.0, 0.0, 0.0, 1.0}}};
-    scene.support_motions = {{"a", 0.0, 0.4}, {"b", 0.0, 0.4}};
-    request.options.max_increments = 1000;
-    const TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-    EXPECT_NE(path.result.message.find("comes off its roller"), std::string::npos) << path.result.message;
-    EXPECT_NEAR(path.increments.back().load_factor, 1.0, 1e-8);  // at y = 1.2, the top of the roller
-    ExpectNoFindings(path);
-  }
+  for (const double friction : {0.0, 0.05, 0.2, 0.5})
+    for (const double EA : {1.0, 10.0, 1e6})
+      for (const double rest_length : {0.9, 1.0}) {
+        SCOPED_TRACE(testing::Message() << friction << " " << EA << " " << rest_length);
+        TraceRequest request;
+        Scene& scene = request.scene;
+        scene.name = "lifted";
+        scene.nodes = {{"a", -0.5, 0.8, true, true}, {"axle", 0.0, 1.0, true, true}, {"b", 0.5, 0.8, true, true}};
+        scene.tendons = {TendonThrough({"a", "axle", "b"}, {0.0, 0.2, 0.0}, {0.0, -1.0, 0.0}, EA)};
+        scene.tendons[0].friction = friction;
+        scene.tendons[0].rest_length = rest_length;
+        scene.nodes.push_back({"free", 2.0, 0.0});
+        scene.superelements = {{{"free"}, {1.0, 0.0, 0.0, 1.0}}};
+        scene.support_motions = {{"a", 0.0, 0.4}, {"b", 0.0, 0.4}};
+        request.options.max_increments = 1000;
+        const TracedPath path = TraceIncrements(request);
+        EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
+        EXPECT_NE(path.result.message.find("comes off its roller"), std::string::npos) << path.result.message;
+        EXPECT_NEAR(path.increments.back().load_factor, 1.0, 1e-8);  // at y = 1.2, the top of the roller
+        ExpectNoFindings(path);
+      }
 }
 
 TEST(Rollers, AreTheSameInOtherWords) {

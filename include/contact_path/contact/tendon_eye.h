@@ -15,8 +15,8 @@ namespace contact_path {
 // tendon is slack; port 1 has for its motion w, what has slid from the span before to the span behind [length], and a
 // force of which |force| <= N, with the factor tanh(mu phi / 2) (1 + N / (2 EA)): with the factor it is
 // T1 + T1^2 / (2 EA) - T2 - T2^2 / (2 EA), since a string that stretches slides faster where it bears more. Where
-// the tendon is nearly straight at an eye without a radius phi is rounded, phi + e ln(1 + exp(-2 phi / e)) with e =
-// 1e-3, so that it has derivatives there: from 0.02 on by nothing that shows.
+// the tendon is nearly straight phi is rounded, phi + e ln(1 + exp(-2 phi / e)) with e = 1e-3, so that it has
+// derivatives there, and the equations are regular where it comes off a roller: from 0.02 on by nothing that shows.
 class TendonEye : public ContactPair {
  public:
   // Round which the tendon is wrapped by phi = wrapped + sense (what the spans turn by since the start). sense: 1

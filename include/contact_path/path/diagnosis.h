@@ -58,6 +58,9 @@ Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint
 // scaled.
 Causes TouchesTwice(const Model& model, const PathPoint& point);
 
+// Names a contact of a rigid body that gives way by more than stands for the rigid; else empty.
+Causes IsClamped(const Model& model, const PathPoint& point);
+
 // Names a contact that stands at an end of its surface, over which no branch slides, and counts the others that do;
 // else empty.
 Causes StandsAtEnd(const Model& model, const PathPoint& point);
