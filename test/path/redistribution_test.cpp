@@ -135,7 +135,7 @@ TEST(Redistribution, ATableHandsANodeOverThatSlides) {
   EXPECT_NEAR(Contact(path, end, "b@low").rt, -0.09, kRounding);
   EXPECT_NEAR(end.dissipation, 0.2 * 0.11 - 0.5 * 0.11 * 0.11, kRounding);
   for (const Increment& increment : path.increments)
-    if (PositionX(path, increment, "b") > 0.0 && PositionX(path, increment, "b") < 0.11) {
+    if (const double x = PositionX(path, increment, "b"); x > kRounding && x < 0.11 - kRounding) {
       EXPECT_NEAR(increment.load_factor, 0.1, kRounding);
     }
 }
