@@ -288,17 +288,6 @@ TEST(Toys, RoundingTurnsNoRateOnShortSteps) {
   EXPECT_GT(walk.at().x[1], 0.1 + 1e-9);
 }
 
-// Nearer than what tells one point from another.
-TEST(Toys, ATargetNextToTheStartIsReachedInPlace) {
-  StepEnds ends;
-  ends.load_factor = 0.1 + 2e-11;
-  Walk walk(Line({}), Vector2d(0.1, 0.1), Vector2d(1.0, 1.0));
-  const ArcStep step = walk.ToEvent(1, ends);
-  EXPECT_EQ(step.event.Kind(), EventKind::kTarget);
-  EXPECT_EQ(step.step.length, 0.0);
-  EXPECT_EQ(walk.at().x[1], *ends.load_factor);
-}
-
 TEST(Toys, TargetsAndSamples) {
   StepEnds ends;
   ends.load_factor = -0.3;

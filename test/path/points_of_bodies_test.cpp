@@ -326,8 +326,8 @@ TEST(PointsOfBodies, FiftyDiscsComeToRestInABin) {
 
 // Its last step under the weight is shorter than what rounding leaves of a point.
 TEST(PointsOfBodies, TwentyDiscsYieldAsTheWallGivesWay) {
-  const TracedPath path = TraceIncrements(
-      ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/piles/twenty_discs_in_a_bin.yaml"));
+  const TracedPath path =
+      TraceIncrements(ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/piles/twenty_discs_in_a_bin.yaml"));
   ASSERT_FALSE(path.increments.empty()) << path.result.message;
   EXPECT_TRUE(path.result.reached) << path.result.message;
   EXPECT_GT(path.increments.back().load_factor, 0.8);
