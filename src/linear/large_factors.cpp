@@ -181,7 +181,7 @@ bool LargeFactors::TakeDifferences() {
   }
   LowRankUpdate::Differences of_rows(moved.cols(), moved.rows());
   of_rows.setFromTriplets(differences.begin(), differences.end());
-  if (!update_.Set(std::move(moved), std::move(of_rows))) return false;
+  if (!update_.Set(std::move(moved), of_rows)) return false;
   update_.Correct(direction_);
   return true;
 }

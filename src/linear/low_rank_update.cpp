@@ -11,9 +11,9 @@ constexpr double kLeastCoupling = 1e-4;  // reciprocal condition of C, which tak
 
 void LowRankUpdate::Clear() { moved_.resize(0, 0); }
 
-bool LowRankUpdate::Set(Eigen::MatrixXd moved, Differences differences) {
+bool LowRankUpdate::Set(Eigen::MatrixXd moved, const Differences& differences) {
   moved_ = std::move(moved);
-  differences_ = std::move(differences);
+  differences_ = differences;
   const Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(moved_.cols(), moved_.cols()) + differences_ * moved_;
   if (!coupling.allFinite()) return false;
   coupling_.compute(coupling);

@@ -17,7 +17,7 @@ class LowRankUpdate {
   // A = A0.
   void Clear();
   // moved: Z, n x k; differences: D, k x n. False if they leave C too few digits.
-  bool Set(Eigen::MatrixXd moved, Differences differences);
+  bool Set(Eigen::MatrixXd moved, const Differences& differences);
 
   bool IsEmpty() const { return moved_.cols() == 0; }
   const Eigen::MatrixXd& Moved() const { return moved_; }

@@ -233,7 +233,7 @@ struct SymmetricFactors::Large {
     }
     SolveLast(&moved);
     for (Eigen::Index i = 0; i < count; ++i) G.row(i) = moved.row(changed[static_cast<std::size_t>(i)]);
-    if (!update.Set(std::move(moved), std::move(of_rows))) return false;
+    if (!update.Set(std::move(moved), of_rows)) return false;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(difference);
     const Eigen::MatrixXd roots = of.eigenvectors() * of.eigenvalues().cwiseAbs().cwiseSqrt().asDiagonal();
     Eigen::MatrixXd condensed = -roots.transpose() * G * roots;
