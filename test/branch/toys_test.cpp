@@ -288,6 +288,16 @@ TEST(Toys, RoundingTurnsNoRateOnShortSteps) {
   EXPECT_GT(walk.at().x[1], 0.1 + 1e-9);
 }
 
+// x + 1e6 - (1e6 + 0.1) grows, and has no digits for steps as short as this.
+TEST(Toys, ATargetNextToTheStart) {
+  StepEnds ends;
+  ends.load_factor = 0.1 + 2e-11;
+  const auto grows = [](const Unknowns& x) { return (x[0] + Along(1e6)) - Along(1e6 + 0.1); };
+  Walk walk(Line({{grows}}), Vector2d(0.1, 0.1), Vector2d(1.0, 1.0));
+  EXPECT_EQ(walk.ToEvent(1, ends).event.Kind(), EventKind::kTarget);
+  EXPECT_EQ(walk.at().x[1], *ends.load_factor);
+}
+
 TEST(Toys, TargetsAndSamples) {
   StepEnds ends;
   ends.load_factor = -0.3;
