@@ -167,12 +167,13 @@ bool LargeFactors::TakeDifferences() {
   Eigen::MatrixXd moved(row_.size(), static_cast<Eigen::Index>(changed_.size()));
   std::vector<Eigen::Triplet<double>> differences;
   for (Eigen::Index j = 0; j < moved.cols(); ++j) {
-    const auto k = static_cast<std::size_t>(changed_[static_cast<std::size_t>(j)]);
-    auto found = made_->moved.find(changed_[static_cast<std::size_t>(j)]);
+    const int equation = changed_[static_cast<std::size_t>(j)];
+    const auto k = static_cast<std::size_t>(equation);
+    auto found = made_->moved.find(equation);
     if (found == made_->moved.end()) {
       if (made_->moved.size() == kMostMoved) return false;
-      right_ = Eigen::VectorXd::Unit(row_.size(), static_cast<Eigen::Index>(k));
-      found = made_->moved.emplace(changed_[static_cast<std::size_t>(j)], row_.size()).first;
+      right_ = Eigen::VectorXd::Unit(row_.size(), equation);
+      found = made_->moved.emplace(equation, row_.size()).first;
       made_->factors.SolveTransposed(right_.data(), found->second.data());
     }
     moved.col(j) = found->second;

@@ -51,6 +51,7 @@ class LargeFactors {
   // By factors that solvers of the frame have; false if they do not serve.
   bool Update(const Frame& frame);
   bool IsRegular(bool any_border);
+  // The update from N0 to N; false if it does not serve.
   bool TakeDifferences();
 
   Orderings own_orderings_;  // of systems without a frame

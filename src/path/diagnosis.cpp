@@ -27,9 +27,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMostGiven = 1e-6;  // scaled, by contacts of bodies
-
 constexpr std::size_t kListed = 3;    // in a message
+constexpr double kMostGiven = 1e-6;   // of the characteristic length, by contacts of bodies: as the check has it
 constexpr double kDeep = 1e-3;        // of the characteristic length: what is not as deep in an obstacle is not told
 constexpr double kWeight = 0.1;       // share of other loads from which on constant ones are no disturbance
 constexpr double kExactLoads = 1e-6;  // error of loads, of them, that goes without a remark
@@ -82,8 +81,7 @@ SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int pa
   return sharpest;
 }
 
-// By dof, the diagonal of the tangent (scaled).
-// Of the elements, and of bars with a sense as if they bore.
+// By dof, the diagonal of the tangent (scaled): of the elements, of bars with a sense as if they bore, and of pins.
 Eigen::VectorXd DiagonalStiffness(const Model& model, const PathPoint& point) {
   Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
   model.structure.Tangent(point.u, &tangent);
@@ -91,12 +89,11 @@ Eigen::VectorXd DiagonalStiffness(const Model& model, const PathPoint& point) {
   PortsAt at;
   for (std::size_t i = model.contacts.size(); i < model.laws.size(); ++i) {
     const Law& law = model.laws[i];
+    const StateRule& held = law.In(law.AllHeld());
     law.Evaluate(point.u, point.s, point.modes[i].piece, {}, &at);
-    for (int state = 0; state < law.NumStates(); ++state)
-      for (std::size_t p = 0; p < law.NumPorts(); ++p)
-        if (const PortRule& rule = law.In(state).ports[p]; rule.Holds() && rule.compliance > 0.0)
-          for (std::size_t a = 0; a < at.dofs.size(); ++a)
-            diagonal[at.dofs[a]] += std::pow(at[p].gradient[static_cast<Eigen::Index>(a)], 2) / rule.compliance;
+    for (std::size_t p = 0; p < law.NumPorts(); ++p)
+      for (std::size_t a = 0; a < at.dofs.size() && held.ports[p].compliance > 0.0; ++a)
+        diagonal[at.dofs[a]] += std::pow(at[p].gradient[static_cast<Eigen::Index>(a)], 2) / held.ports[p].compliance;
   }
   return diagonal;
 }
