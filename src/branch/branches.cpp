@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFewCombinations = 8.0;         // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;           // numbers that may be held for that
-constexpr std::size_t kMostCondensedLaws = 512;  // of more, dense equations take longer than the sparse ones of all
+constexpr std::size_t kMostCondensedLaws = 512;  // of more, the sparse equations of all take their place
 // Shares of the springs of a rate problem: those that nearly stand for the contacts, then ever softer ones.
 constexpr double kMostShare = 1e6, kLeastShare = 1e-8, kNextShare = 0.1;
 constexpr double kMostCombinations = 4096.0;  // 4^6
