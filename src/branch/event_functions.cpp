@@ -336,7 +336,11 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   }
   for (const Limit& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
-    const double zero = equations.IsOfRate(constraint) ? zero_rate : arc->RoundingOf(constraint);
+    // What counts as zero where a branch sets out fails only as it falls.
+    const double zero = equations.IsOfRate(constraint)
+                            ? zero_rate
+                            : std::max(arc->RoundingOf(constraint),
+                                       std::min(-quintic[0], tolerances::kActive * equations.UnitOf(constraint)));
     double where = 0.0;
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider({*t, constraint});

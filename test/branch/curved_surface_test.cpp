@@ -7,6 +7,7 @@
 
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/rate_problem.h"
+#include "support/contact_points.h"
 #include "support/curved_contacts.h"
 #include "support/points.h"
 

@@ -288,6 +288,17 @@ TEST(Toys, RoundingTurnsNoRateOnShortSteps) {
   EXPECT_GT(walk.at().x[1], 0.1 + 1e-9);
 }
 
+// A limit that counts as zero where the curve sets out is no event as it rises, and is one at once as it falls.
+TEST(Toys, WhatIsZeroAtTheStartMayRise) {
+  for (const double sense : {1.0, -1.0}) {
+    const auto limit = [=](const Unknowns& x) { return Along(-5e-11) + Along(1e-8 * sense) * (x[0] - Along(0.1)); };
+    Walk walk(Line({{limit}}), Vector2d(0.1, 0.1), Vector2d(1.0, 1.0));
+    const ArcStep step = walk.ToEvent(3);
+    EXPECT_EQ(step.event.Kind(), sense > 0.0 ? EventKind::kNone : EventKind::kContactEvent);
+    EXPECT_EQ(step.step.length > 0.0, sense > 0.0);
+  }
+}
+
 // x + 1e6 - (1e6 + 0.1) grows, and has no digits for steps as short as this.
 TEST(Toys, ATargetNextToTheStart) {
   StepEnds ends;
