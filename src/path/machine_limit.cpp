@@ -54,7 +54,11 @@ bool MachineLimit::Note(const Place& place, StabilityRecord* record, std::option
     return !place.stable_ahead;
   }
   if (at_limit_ == AtLimit::kStop) {
-    if (turns || (unstable && !none)) *end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
+    // A structure that slides at a constant load, or that artificial stiffness alone holds, carries no more.
+    const bool rests = !none && monitor_ && monitor_->UnderMachine().verdict == Verdict::kNotProved &&
+                       (monitor_->UnderMachine().artificial ||
+                        parameter_.Sense(place.leaves.first, place.leaves.second, nd + 1, tolerances::kRate) == 0);
+    if (turns || rests || (unstable && !none)) *end = End{EndReason::kAtLimit, {{sentences::kAtLimit}}};
     return false;
   }
   if (!none && !turns && !unstable) {

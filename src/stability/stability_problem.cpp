@@ -37,7 +37,7 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
   if (!regular_) return;
   // Each equation of motion is a constraint, whose multiplier makes one eigenvalue negative.
   negative_ = factors_.NegativeEigenvalues() - static_cast<Eigen::Index>(places_.size());
-  regular_ = negative_ >= 0 && Condense(transposed);
+  regular_ = negative_ >= 0 && Condense(point, transposed);
 }
 
 bool StabilityProblem::IsSymmetric(const Modes& modes) const {
@@ -162,7 +162,7 @@ bool StabilityProblem::ForcesActAlongMotions(const Eigen::SparseMatrix<double>& 
   return true;
 }
 
-bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
+bool StabilityProblem::Condense(const PathPoint& point, const Eigen::SparseMatrix<double>& transposed) {
   const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
   const auto count = static_cast<Eigen::Index>(slips_.size());
   const Eigen::VectorXd& f = structure_.ReferenceLoad();
@@ -226,7 +226,28 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
     w_of_load_[i] =
         slip.sense * solutions(PlaceOf(slip.following), 0) + slip.ratio * solutions(PlaceOf(slip.leading), 0);
   }
+  FindArtificial(point, transposed);
   return H_.allFinite();
+}
+
+void StabilityProblem::FindArtificial(const PathPoint& point, const Eigen::SparseMatrix<double>& transposed) {
+  const Eigen::Index nd = structure_.NumDofs(), count = motions_.cols();
+  Eigen::MatrixXd motions(nd, 1 + count);
+  motions << by_load_, motions_;
+  const Eigen::MatrixXd forces = structure_.ArtificialForces(point.u, motions);
+  artificial_ = Eigen::MatrixXd::Zero(count, 1 + count);
+  if (forces.isZero(0.0)) return;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Slip& slip = slips_[static_cast<std::size_t>(k)];
+    Eigen::MatrixXd w = Eigen::MatrixXd::Zero(symmetric_ ? saddle_.rows() : transposed.rows(), 1);
+    w(symmetric_ ? PlaceOf(slip.following) : slip.following + 1, 0) = slip.sense;
+    w(symmetric_ ? PlaceOf(slip.leading) : slip.leading + 1, 0) = slip.ratio;
+    if (symmetric_)
+      factors_.Solve(&w);
+    else
+      w = unsymmetric_.SolveTransposed(w);
+    artificial_.row(k) = -w.topRows(nd).transpose() * forces;
+  }
 }
 
 double StabilityProblem::EnergyAt(const Slip& slip, const Eigen::VectorXd& motion) const {
@@ -342,15 +363,19 @@ Stability StabilityProblem::Under(double compliance) const {
   const double least = H_.cwiseAbs().maxCoeff() * tolerances::kRootOfRounding;
   const Eigen::VectorXd scale = H_.diagonal().cwiseAbs().cwiseMax(least).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd H = scale.asDiagonal() * of_slips * scale.asDiagonal();
+  const Eigen::MatrixXd artificial =
+      artificial_.rightCols(H.cols()) - share * artificial_.col(0) * load_of_slips_.transpose();
   if (n0 == 0 && IsStrictlyCopositive(H)) {
+    const Eigen::MatrixXd without = H - 2.0 * scale.asDiagonal() * artificial.cwiseAbs() * scale.asDiagonal();
+    found.artificial = !artificial.isZero(0.0) && !IsStrictlyCopositive(without);
+    if (found.artificial) return found;
     found.verdict = Verdict::kStable;
     found.directions = 0;
     return found;
   }
   const std::vector<GrowingSlip> growing = GrowingSlips(H);
   const std::optional<int> degree = ComplementarityDegree(H);
-  const bool sets_out = !degree && !growing.empty();  // with the growth rate 0
-  if (!sets_out && (!degree || sign * *degree == 1) && !(n0 > 0 && slips_.size() == 1)) return found;
+  if ((!degree || sign * *degree == 1) && !(n0 > 0 && slips_.size() == 1)) return found;
   found.verdict = Verdict::kUnstable;
   if (const std::optional<int> count = CountGrowing(H, growing)) found.directions = static_cast<int>(n0) + *count;
   if (found.directions == 0) found.directions = -1;

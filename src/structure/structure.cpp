@@ -293,6 +293,24 @@ void Structure::Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Spars
   }
 }
 
+Eigen::MatrixXd Structure::ArtificialForces(const Eigen::VectorXd& u, const Eigen::MatrixXd& motions) const {
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
+  Scratch x_room, local_room;
+  for (const Part& part : parts_) {
+    if (!part.element->Artificial()) continue;
+    auto x = x_room.Vector(part.dofs.size());
+    auto local = local_room.Square(part.dofs.size());
+    Gather(part, u, x);
+    part.element->Tangent(x, local);
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      for (std::size_t k = 0; k < part.dofs.size(); ++k)
+        if (part.dofs[i] >= 0 && part.dofs[k] >= 0)
+          forces.row(part.dofs[i]) +=
+              local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) * motions.row(part.dofs[k]);
+  }
+  return forces;
+}
+
 void Structure::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& from,
                              const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::SparseMatrix<double>* tangent) const {
   std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);

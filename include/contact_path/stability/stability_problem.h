@@ -20,6 +20,7 @@ struct Stability {
   Verdict verdict = Verdict::kNotProved;
   int directions = -1;        // in which a disturbance grows; -1 = not known
   Eigen::VectorXd direction;  // one of them, of unit norm; empty = none is known
+  bool artificial = false;    // not proved, and stable where artificial stiffness counts
 };
 
 // A disturbance grows by divergence if for some growth rate a >= 0 there are motions v and changes rho of the forces of
@@ -36,7 +37,8 @@ struct Stability {
 // (-1)^n0 times that of H, n0: negative eigenvalues of K where S is held. Without S also where n0 is even, and not 0,
 // and with one port in S where n0 is not 0: one of the senses of a mode keeps w >= 0. Stable, whatever masses and
 // drags the nodes of S have, if all other nodes follow at once: sym H is strictly copositive, since z .
-// (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of other nodes may let go what H holds.
+// (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of other nodes may let go what H holds. That is
+// shown where it is so without what artificial elements add to H, and as much again.
 class StabilityProblem {
  public:
   // Both must outlive the problem.
@@ -69,7 +71,8 @@ class StabilityProblem {
   // Of each port that is held, whether its force acts along the gradient of its motion.
   bool ForcesActAlongMotions(const Eigen::SparseMatrix<double>& transposed) const;
   void BuildSaddle(const Eigen::SparseMatrix<double>& transposed);
-  bool Condense(const Eigen::SparseMatrix<double>& transposed);
+  bool Condense(const PathPoint& point, const Eigen::SparseMatrix<double>& transposed);
+  void FindArtificial(const PathPoint& point, const Eigen::SparseMatrix<double>& transposed);
   // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none
   // is found.
   Eigen::VectorXd FallingMode() const;
@@ -103,6 +106,7 @@ class StabilityProblem {
   Eigen::VectorXd slip_rounding_;  // of the diagonal of H
   Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
+  Eigen::MatrixXd artificial_;     // what artificial elements add to w_of_load_ and, behind it, H
   Eigen::MatrixXd null_;           // columns du; none where the equations are not known to be singular
 };
 

@@ -28,6 +28,7 @@ class AttachedElement : public Element {
   static PlacedElement Wrap(PlacedElement placed, const std::function<const Attachment*(int node)>& attachment_of);
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  bool Artificial() const override { return inner_->Artificial(); }
   double AreaRatio(const Eigen::Ref<const Eigen::VectorXd>& z) const override { return inner_->AreaRatio(Inner(z)); }
   SolidStress MeanStress(const Eigen::Ref<const Eigen::VectorXd>& z) const override {
     return inner_->MeanStress(Inner(z));

@@ -46,6 +46,8 @@ class Element {
   virtual const std::vector<LocalDof>& Dofs() const = 0;
   // Whether the tangent is the same everywhere, in directions that do not turn.
   virtual bool Linear() const { return false; }
+  // Whether nothing real has its stiffness: it keeps determined what the parts of the scene leave free.
+  virtual bool Artificial() const { return false; }
   // The smallest ratio of a current area to its initial one, over the integration points; an element with a ratio <= 0
   // is turned inside out, and its energy is not finite. 1 for an element without an area.
   virtual double AreaRatio(const Eigen::Ref<const Eigen::VectorXd>&) const { return 1.0; }

@@ -40,6 +40,7 @@ class EvenStrain : public Element {
   EvenStrain(double stiffness, Piece before, Piece behind, int num_nodes, int num_bodies = 0);
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  bool Artificial() const override { return true; }
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
   void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override;
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;

@@ -91,6 +91,8 @@ class Structure {
   const Eigen::SparseMatrix<double>& TangentPattern() const { return pattern_; }
   // Hessian of the strain energy; `tangent` must have the pattern and keeps it.
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const;
+  // By unknown: of the artificial elements, the changes of their forces at u by motions, columns.
+  Eigen::MatrixXd ArtificialForces(const Eigen::VectorXd& u, const Eigen::MatrixXd& motions) const;
   // The same with Element::MixedTangent() where an element has one; Mixed(): whether one has.
   bool Mixed() const { return mixed_; }
   void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& from,
