@@ -18,9 +18,9 @@
 namespace contact_path {
 namespace {
 
-constexpr double kFewCombinations = 8.0;         // not worth condensing the rate problem of a small structure for
-constexpr double kMostCondensed = 5e7;           // numbers that may be held for that
-constexpr std::size_t kMostCondensedLaws = 512;  // of more, the sparse equations of all take their place
+constexpr double kFewCombinations = 8.0;          // not worth condensing the rate problem of a small structure for
+constexpr double kMostCondensed = 5e7;            // numbers that may be held for that
+constexpr std::size_t kMostCondensedLaws = 1024;  // of more, the sparse equations of all take their place
 // Shares of the springs of a rate problem: those that nearly stand for the contacts, then ever softer ones.
 constexpr double kMostShare = 1e6, kLeastShare = 1e-8, kNextShare = 0.1;
 constexpr double kMostCombinations = 4096.0;  // 4^6

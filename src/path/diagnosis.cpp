@@ -27,11 +27,12 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kListed = 3;    // in a message
-constexpr double kMostGiven = 1e-6;   // of the characteristic length, by contacts of bodies: as the check has it
-constexpr double kDeep = 1e-3;        // of the characteristic length: what is not as deep in an obstacle is not told
-constexpr double kWeight = 0.1;       // share of other loads from which on constant ones are no disturbance
-constexpr double kExactLoads = 1e-6;  // error of loads, of them, that goes without a remark
+constexpr std::size_t kListed = 3;  // in a message
+constexpr double kMostGiven =
+    1e-6;                        // of the characteristic length, by contacts of bodies and pins: as the check has it
+constexpr double kDeep = 1e-3;   // of the characteristic length: what is not as deep in an obstacle is not told
+constexpr double kWeight = 0.1;  // share of other loads from which on constant ones are no disturbance
+constexpr double kExactLoads = 1e-6;            // error of loads, of them, that goes without a remark
 constexpr double kNearlyIncompressible = 0.48;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {
@@ -278,10 +279,16 @@ Causes TouchesTwice(const Model& model, const PathPoint& point) {
 }
 
 Causes IsClamped(const Model& model, const PathPoint& point) {
-  for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    if (StateOf(point, i) != ContactState::kOpen && !model.contacts[i]->Elastic() &&
-        model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece) < -kMostGiven)
-      return {{sentences::kIsClamped, model.scene.contacts[i].Name()}};
+  for (std::size_t i = 0; i < model.laws.size(); ++i) {
+    if (model.laws[i].Elastic()) continue;
+    for (std::size_t p = 0; p < model.laws[i].NumPorts(); ++p) {
+      const double force = point.forces[model.laws.FirstPort(i) + static_cast<Eigen::Index>(p)];
+      if (model.laws[i].In(point.modes[i]).ports[p].compliance * std::abs(force) <= kMostGiven) continue;
+      const std::size_t pin = i - std::min(i, model.LawOfPin(0));
+      return {{sentences::kIsClamped, i < model.contacts.size() ? "contact " + model.scene.contacts[i].Name()
+                                                                : "pin " + PinName(model.scene.pins[pin], pin)}};
+    }
+  }
   return {};
 }
 

@@ -145,9 +145,8 @@ inline constexpr Sentence kOverrun =
     "contact <name>: another part of the surface comes over the node while it touches, and contact with two parts of "
     "a surface at a time is not covered";
 inline constexpr Sentence kIsClamped =
-    "contact <name> is pressed together by more than a millionth of the characteristic length, as where rigid bodies "
-    "are clamped, or where forces are a hundred times those of the scene: loads are to be written at the size that "
-    "they reach";
+    "<name> gives way by more than a millionth of the characteristic length, as where rigid bodies are clamped, or "
+    "where forces are a hundred times those of the scene: loads are to be written at the size that they reach";
 inline constexpr Sentence kTouchesTwice =
     "contact <name>: the circle comes upon another part of the obstacle while it touches, and what it touches twice "
     "has "
