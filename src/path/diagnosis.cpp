@@ -27,12 +27,11 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kListed = 3;  // in a message
-constexpr double kMostGiven =
-    1e-6;                        // of the characteristic length, by contacts of bodies and pins: as the check has it
-constexpr double kDeep = 1e-3;   // of the characteristic length: what is not as deep in an obstacle is not told
-constexpr double kWeight = 0.1;  // share of other loads from which on constant ones are no disturbance
-constexpr double kExactLoads = 1e-6;            // error of loads, of them, that goes without a remark
+constexpr std::size_t kListed = 3;    // in a message
+constexpr double kMostGiven = 1e-6;   // of the characteristic length, by bodies and pins: as the check has it
+constexpr double kDeep = 1e-3;        // of the characteristic length: what is not as deep in an obstacle is not told
+constexpr double kWeight = 0.1;       // share of other loads from which on constant ones are no disturbance
+constexpr double kExactLoads = 1e-6;  // error of loads, of them, that goes without a remark
 constexpr double kNearlyIncompressible = 0.48;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {

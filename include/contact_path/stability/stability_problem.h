@@ -3,13 +3,11 @@
 #define CONTACT_PATH_STABILITY_STABILITY_PROBLEM_H_
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <vector>
 
 #include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/law/laws.h"
-#include "contact_path/linear/bordered_solver.h"
-#include "contact_path/linear/symmetric_factors.h"
+#include "contact_path/stability/held_stiffness.h"
 #include "contact_path/stability/verdict.h"
 #include "contact_path/structure/structure.h"
 
@@ -64,39 +62,21 @@ class StabilityProblem {
     Eigen::Index leading, following;  // unknowns of the forces of its ports, without the load factor
   };
 
-  Eigen::Index PlaceOf(Eigen::Index force) const {
-    return places_[static_cast<std::size_t>(force - structure_.NumDofs())];
-  }
   void Classify(const PathPoint& point);
-  // Of each port that is held, whether its force acts along the gradient of its motion.
-  bool ForcesActAlongMotions(const Eigen::SparseMatrix<double>& transposed) const;
-  void BuildSaddle(const Eigen::SparseMatrix<double>& transposed);
-  bool Condense(const PathPoint& point, const Eigen::SparseMatrix<double>& transposed);
-  void FindArtificial(const PathPoint& point, const Eigen::SparseMatrix<double>& transposed);
-  // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none
-  // is found.
-  Eigen::VectorXd FallingMode() const;
+  bool Condense(const PathPoint& point);
   // The sense in which the slips of the null direction are those of the contacts; 0: in none.
   double PossibleSense() const;
-  // The stiffness where a slip acts, times its motion there squared.
-  double EnergyAt(const Slip& slip, const Eigen::VectorXd& motion) const;
   Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
 
   const Structure& structure_;
   const Laws& laws_;
   FixedModeSystem system_;
-  SymmetricFactors factors_;
-  BorderedSolver unsymmetric_;
+  HeldStiffness held_;
 
-  std::vector<int> places_;  // of the forces in the saddle: where there is a frame, as there, and others are zero
   std::vector<Slip> slips_;
-  bool covered_ = true;                                      // by the theory: no holonomic law
-  bool regular_ = false;                                     // the saddle is
-  bool singular_ = false;                                    // the point is known to be
-  bool symmetric_ = true;                                    // K is
-  Eigen::SparseMatrix<double> saddle_, stiffness_, forces_;  // symmetric K and columns of forces
-  Eigen::Index negative_ = 0;      // n0; where the point is singular, besides its null direction
-  int sign_ = 1;                   // of det K where S is held
+  bool covered_ = true;            // by the theory: no holonomic law
+  bool regular_ = false;           // the held stiffness is; n0 and the sign are of it
+  bool singular_ = false;          // the point is known to be; n0 then is besides its null direction
   double load_compliance_ = 0.0;   // f . by_load_
   double stiff_compliance_ = 0.0;  // the same if only components that are loaded moved, one at a time
   Eigen::VectorXd by_load_;        // du by a unit of s
