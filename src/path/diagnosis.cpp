@@ -280,13 +280,14 @@ Causes TouchesTwice(const Model& model, const PathPoint& point) {
 Causes IsClamped(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.laws.size(); ++i) {
     if (model.laws[i].Elastic()) continue;
-    for (std::size_t p = 0; p < model.laws[i].NumPorts(); ++p) {
-      const double force = point.forces[model.laws.FirstPort(i) + static_cast<Eigen::Index>(p)];
-      if (model.laws[i].In(point.modes[i]).ports[p].compliance * std::abs(force) <= kMostGiven) continue;
-      const std::size_t pin = i - std::min(i, model.LawOfPin(0));
-      return {{sentences::kIsClamped, i < model.contacts.size() ? "contact " + model.scene.contacts[i].Name()
-                                                                : "pin " + PinName(model.scene.pins[pin], pin)}};
-    }
+    double given = 0.0;
+    for (std::size_t p = 0; p < model.laws[i].NumPorts(); ++p)
+      given = std::hypot(given, model.laws[i].In(point.modes[i]).ports[p].compliance *
+                                    point.forces[model.laws.FirstPort(i) + static_cast<Eigen::Index>(p)]);
+    if (given <= kMostGiven) continue;
+    const std::size_t pin = i - std::min(i, model.LawOfPin(0));
+    return {{sentences::kIsClamped, i < model.contacts.size() ? "contact " + model.scene.contacts[i].Name()
+                                                              : "pin " + PinName(model.scene.pins[pin], pin)}};
   }
   return {};
 }
