@@ -14,10 +14,10 @@ constexpr int kLocatingAttempts = 6;
 constexpr double kRounded = 10.0;  // turn along a step by a second derivative that is rounding
 constexpr double kOffCurve = 0.7;  // cosine between the chord to a located end and the tangent at the start
 
-// What rounding does not leave of a point, the start of its step tells: the sign of a matrix that is singular to
-// rounding at a regular point, and the sense of a load that hardly changes.
+// What a point does not tell, the start of its step does: the sign of a matrix that is singular, unless a crossing is
+// located there, and the sense of a load that hardly changes.
 void KeepSigns(const CurvePoint& start, CurvePoint* end) {
-  if (end->side == 0 && end->nullity == 0 && !end->is_crossing) end->side = start.side;
+  if (end->side == 0 && !end->is_crossing) end->side = start.side;
   if (end->is_limit)
     end->load_sense = -start.load_sense;
   else if (end->load_sense == 0)

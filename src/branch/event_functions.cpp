@@ -104,8 +104,8 @@ bool IsZeroAt(const ArcEquations& equations, const Limit& constraint, const Cros
   return std::abs(along.value) <= tolerances::kActive * unit;
 }
 
-// Where the determinant has changed its sign on the step: puts the crossing in the place of the first event, or beside
-// it where both coincide. False: no crossing explains the change of sign.
+// Where the determinant has changed its sign on the step, or is zero at its end: puts the crossing in the place of the
+// first event, or beside it where both coincide. False: no crossing explains the change of sign.
 bool LookForCrossing(SmoothArc* arc, const Step& step, StepEvent* first) {
   ArcEquations& equations = arc->equations();
   bool broken = false;
@@ -353,7 +353,9 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
       consider(near_at(where));
   }
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider({*t, {}, true});
-  if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, &first)) return too_long;
+  // A step may end on a crossing.
+  const bool crosses = step.start.side * step.end.side<0, lands = step.end.nullity> step.start.nullity;
+  if ((crosses || lands) && !LookForCrossing(arc, step, &first) && crosses) return too_long;
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.Kind() == EventKind::kNone && equations.BeyondReach(step.end.x)) return too_long;
   // Whatever lies behind the target, however near, is not of this path.

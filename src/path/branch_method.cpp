@@ -60,7 +60,8 @@ std::optional<End> BranchMethod::SetOut(const PathPoint& from, StartRecord* foun
   if (limit_.monitor() != nullptr) {
     PathPoint leaves = from;
     if (!end) leaves.modes = arc_.system().modes();
-    limit_.monitor()->Start(leaves, end ? nullptr : &current_);
+    const PathPoint next = end ? leaves : arc_.system().Unpack(Ahead(current_));
+    limit_.monitor()->Start(leaves, end ? nullptr : &current_, &next);
     found->stability = limit_.monitor()->record();
   }
   return end;

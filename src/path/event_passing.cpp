@@ -9,7 +9,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kAhead = 0.1;  // of the wanted step: where a branch, or a load that is level, is looked at again
+constexpr double kAhead = 0.1;      // of the wanted step: where a branch, or a load that is level, is looked at again
+constexpr double kFarAhead = 0.05;  // at most, or the wanted step
 
 }  // namespace
 
@@ -42,14 +43,18 @@ std::optional<End> EventPassing::Pass(const ArcStep& at, const Before& before, A
 
 std::size_t EventPassing::StableBranch(const std::vector<Branch>& branches) {
   const Eigen::Index n = arc_->NumMotion();
-  const double length = kAhead * options_.step;
   const auto leads_on = [&](const Branch& branch) {
     if (limit_->parameter().Sense(branch.first, branch.second, n, tolerances::kRate) < 0) return false;
-    const Eigen::VectorXd ahead = current_->x + length * branch.first + 0.5 * length * length * branch.second;
-    const Correction there = arc_->CorrectOnPlane(ahead, branch.first.head(n));
-    return there.converged && limit_->parameter().Rate(there.x - current_->x, n) > 0.0 &&
-           (limit_->monitor() == nullptr ||
-            limit_->monitor()->At(arc_->system().Unpack(there.x)).verdict == Verdict::kStable);
+    // Stiffness grows with the square of the distance: near the point, stiff parts may hide it.
+    for (double length = kAhead * options_.step; length <= std::max(kFarAhead, options_.step); length *= 2.0) {
+      const Eigen::VectorXd ahead = current_->x + length * branch.first + 0.5 * length * length * branch.second;
+      const Correction there = arc_->CorrectOnPlane(ahead, branch.first.head(n));
+      if (!there.converged || !(limit_->parameter().Rate(there.x - current_->x, n) > 0.0)) return false;
+      if (limit_->monitor() == nullptr) return true;
+      const Verdict verdict = limit_->monitor()->At(arc_->system().Unpack(there.x)).verdict;
+      if (verdict != Verdict::kNotProved) return verdict == Verdict::kStable;
+    }
+    return false;
   };
   return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
 }

@@ -87,7 +87,7 @@ void OnsetFinder::NoteBehind(const ArcStep& at, const PathPoint& point, const Cu
     if (!rule.OfPiece())
       decides = rule.OfForces() ? StabilityMonitor::Decides::kDeparture : StabilityMonitor::Decides::kArrival;
   }
-  limit_->monitor()->NoteEvent(leaves, current, decides);
+  limit_->monitor()->NoteEvent(leaves, current, arc_->system().Unpack(Ahead(current)), decides);
 }
 
 std::optional<Onset> OnsetFinder::Find(const ArcStep& at, const PathPoint& end) {
@@ -97,8 +97,8 @@ std::optional<Onset> OnsetFinder::Find(const ArcStep& at, const PathPoint& end) 
   // Where curves cross, the tangent is known less well, and the setting may turn at that point.
   const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent : 0.0;
   const Eigen::Index n = arc_->NumMotion();
-  if (!limit_->machine().IsDead() && limit_->parameter().Rate(at.step.start.first, n) > 0.0 &&
-      limit_->parameter().Rate(at.step.end.first, n) < -rounding) {
+  if (!limit_->machine().IsDead() && limit_->parameter().Sense(at.step.start.first, n) > 0 &&
+      limit_->parameter().Sense(at.step.end.first, n, rounding) < 0) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(arc_->system().NumUnknowns());
     row.head(n) = limit_->parameter().Gradient(n);
     place = LocateTurn(arc_, at.step, row);
@@ -106,11 +106,13 @@ std::optional<Onset> OnsetFinder::Find(const ArcStep& at, const PathPoint& end) 
   if (limit_->monitor() != nullptr) {
     const bool held = limit_->monitor()->HeldOnArc();
     Note(at.step.end, end, NullDirections(at));
-    // What is singular at the end itself does not count on the way there, and right before it rounding decides.
+    // What is singular at the end itself, or touches without force there, does not count on the way there, and right
+    // before it rounding decides.
     double last = at.step.length;
     Stability after = limit_->monitor()->UnderMachine();
-    if (!place && held && (at.step.end.is_limit || at.step.end.is_crossing)) {
-      last *= 1.0 - tolerances::kSmallShare;
+    const bool singular = at.step.end.is_limit || at.step.end.is_crossing;
+    if (!place && held && (singular || at.event.fails)) {
+      last *= 1.0 - (singular ? tolerances::kSmallShare : tolerances::kNextToStart);
       const std::optional<PathPoint> before = PointApart(model_, *arc_, at.step, last);
       after = before ? limit_->monitor()->At(*before) : Stability();
     }

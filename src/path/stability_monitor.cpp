@@ -17,8 +17,8 @@ const Stability& Worse(const Stability& a, const Stability& b) {
 
 }  // namespace
 
-void StabilityMonitor::Count(const PathPoint& point, const Eigen::MatrixXd& null_directions) {
-  problem_.Set(point, null_directions);
+void StabilityMonitor::Count(const PathPoint& point, const Eigen::MatrixXd& null_directions, const PathPoint* next) {
+  problem_.Set(point, null_directions, next);
   arc_.dead = problem_.Under(INFINITY);
   arc_.controlled = problem_.Under(0.0);
   arc_.under_machine = machine_.IsDead() ? arc_.dead : problem_.Under(machine_.Compliance());
@@ -29,8 +29,8 @@ Stability StabilityMonitor::At(const PathPoint& point) {
   return problem_.Under(machine_.Compliance());
 }
 
-void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
-  Count(point, {});
+void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead, const PathPoint* next) {
+  Count(point, {}, next);
   known_ = true;
   Write(arc_, point.u, ahead);
 }
@@ -48,9 +48,10 @@ void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const 
   Write(arc_, point.u, &at);
 }
 
-void StabilityMonitor::NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, Decides decides) {
+void StabilityMonitor::NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, const PathPoint& next,
+                                 Decides decides) {
   const Verdicts arrives = arc_;
-  Count(leaves, {});
+  Count(leaves, {}, &next);
   known_ = true;
   Verdicts at = decides == Decides::kArrival ? arrives : arc_;
   if (decides == Decides::kBoth) {

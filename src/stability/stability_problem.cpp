@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 
+#include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/stability/slip_stability.h"
 #include "contact_path/tolerances.h"
 
@@ -12,9 +14,24 @@ namespace contact_path {
 StabilityProblem::StabilityProblem(const Structure& structure, const Laws& laws)
     : structure_(structure), laws_(laws), system_(structure, laws) {}
 
-void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_directions) {
-  Classify(point);
-  const Eigen::VectorXd x = system_.Pack(point);
+void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_directions, const PathPoint* ahead) {
+  touching_.clear();
+  if (releases_) FindTouching(point, ahead == nullptr ? point : *ahead);
+  if (!touching_.empty()) {
+    for (auto* const other : {&free_, &as_is_})
+      if (!*other) {
+        *other = std::make_unique<StabilityProblem>(structure_, laws_);
+        (*other)->releases_ = false;
+      }
+    as_is_->Set(point, null_directions);
+    point_ = point;
+    for (const Touching& law : touching_) point_.modes[law.number].state = law.idle;
+    free_->Set(point_, null_directions);
+  }
+  PathPoint held = point;
+  for (const Touching& law : touching_) held.modes[law.number] = law.rubs ? point_.modes[law.number] : law.bears;
+  Classify(held.modes);
+  const Eigen::VectorXd x = system_.Pack(held);
   const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
   singular_ = null_directions.cols() > 0 && slips_.empty();
   null_ = null_directions;
@@ -30,15 +47,37 @@ bool StabilityProblem::IsSymmetric(const Modes& modes) const {
   return true;
 }
 
-void StabilityProblem::Classify(const PathPoint& point) {
-  Modes modes = point.modes;
+void StabilityProblem::FindTouching(const PathPoint& point, const PathPoint& ahead) {
+  const ActiveSetTolerance zero = ActiveSetTolerance::For(laws_.LargestForce(point), point.s);
+  for (std::size_t i = 0; i < point.modes.size(); ++i) {
+    const Law& law = laws_[i];
+    if (law.NumStates() == 1) continue;
+    Touching found{i, 0, law.Known(point.u, point.s, point.modes[i]), law.LargestRatio() > 0.0};
+    if (law.In(found.bears).idle) {
+      found.idle = found.bears.state;
+      const auto motion = [&](const PathPoint& at) { return law.Motion(0, at.u, at.s, found.bears.piece, {}); };
+      if (std::max(motion(point), motion(ahead)) > tolerances::kRootOfRounding) continue;
+      while (law.In(found.bears).idle) found.bears.state = (found.bears.state + 1) % law.NumStates();
+    } else {
+      const Eigen::Index force = laws_.FirstPort(i);
+      if (std::max(point.forces[force], ahead.forces[force]) > zero.force * law.ForceUnit()) continue;
+      while (!law.In(found.idle).idle) ++found.idle;
+    }
+    touching_.push_back(found);
+  }
+}
+
+void StabilityProblem::Classify(Modes modes) {
   slips_.clear();
   covered_ = true;
   // Forces as the system numbers them, without the load factor.
   Eigen::Index next = structure_.NumDofs();
+  auto touching = touching_.begin();
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const Law& law = laws_[i];
     const StateRule& state = law.In(modes[i]);
+    const bool touches = touching != touching_.end() && touching->number == i;
+    if (touches) ++touching;
     if (state.idle) continue;
     covered_ = covered_ && !(law.Holonomic() && law.LargestRatio() > 0.0);
     modes[i].state = state.held;
@@ -46,6 +85,7 @@ void StabilityProblem::Classify(const PathPoint& point) {
     const Eigen::Index leading = next;
     for (std::size_t p = 0; p < law.NumPorts(); ++p) {
       if (!held.ports[p].Holds()) continue;
+      if (p == 0 && touches) slips_.push_back({1.0, 0.0, leading, leading});
       if (state.ports[p].Follows())
         slips_.push_back({state.ports[p].ratio < 0.0 ? 1.0 : -1.0, std::abs(state.ports[p].ratio), leading, next});
       ++next;
@@ -118,6 +158,37 @@ double StabilityProblem::PossibleSense() const {
 }
 
 Stability StabilityProblem::Under(double compliance) const {
+  if (touching_.empty()) return Decide(compliance);
+  Stability found = free_->Under(compliance);
+  if (found.verdict == Verdict::kStable) return found;
+  found = Decide(compliance);
+  if (found.verdict == Verdict::kStable || (found.verdict == Verdict::kUnstable && Opens(&found.direction)))
+    return found;
+  found = as_is_->Under(compliance);
+  return found.verdict == Verdict::kUnstable ? found : Stability();
+}
+
+bool StabilityProblem::Opens(Eigen::VectorXd* direction) const {
+  const auto opens = [&](const Touching& law, double sense) {
+    const auto motion = [&](double way) {
+      return laws_[law.number].Motion(0, point_.u + way * *direction, point_.s, law.bears.piece, {});
+    };
+    return !law.rubs ||
+           motion(sense * tolerances::kNextToStart) > motion(0.0) + tolerances::kSmallShare * tolerances::kNextToStart;
+  };
+  const bool rubs = std::any_of(touching_.begin(), touching_.end(), [](const Touching& law) { return law.rubs; });
+  if (!rubs || direction->size() == 0) return !rubs;
+  for (const double sense : {1.0, -1.0}) {
+    if (sense < 0.0 && !slips_.empty()) break;
+    if (!std::all_of(touching_.begin(), touching_.end(), [&](const Touching& law) { return opens(law, sense); }))
+      continue;
+    *direction *= sense;
+    return true;
+  }
+  return false;
+}
+
+Stability StabilityProblem::Decide(double compliance) const {
   Stability found;
   if (!covered_) return found;
   const bool dead = !std::isfinite(compliance) || structure_.ReferenceLoad().isZero(0.0);
@@ -135,7 +206,7 @@ Stability StabilityProblem::Under(double compliance) const {
     found.verdict = Verdict::kUnstable;
     found.direction = Normalised(sense * null_.col(0));
     const bool held = !std::isfinite(compliance) && !structure_.ReferenceLoad().isZero(0.0);
-    if (const int directions = held ? Under(0.0).directions : -1; directions >= 0) found.directions = directions + 1;
+    if (const int directions = held ? Decide(0.0).directions : -1; directions >= 0) found.directions = directions + 1;
     return found;
   }
   // f . du per unit of Q - f . u. Where the loads act on what the laws hold, a rigid machine is taken for a very
@@ -151,6 +222,11 @@ Stability StabilityProblem::Under(double compliance) const {
   // What rounding leaves of a compliance that is not negative: of a stiffness without a falling direction.
   if (slips_.empty() && held_.negative() == 0) machine = std::abs(machine);
   const double share = dead ? 0.0 : 1.0 / machine;
+  const auto falling_mode = [&] {
+    const double stiffness = dead ? 0.0 : 1.0 / std::max(compliance, tolerances::kRootOfRounding * stiff_compliance_);
+    return held_.FallingMode(load_compliance_ < 0.0 ? by_load_ : Eigen::VectorXd(), structure_.ReferenceLoad(),
+                             stiffness);
+  };
   const Eigen::Index n0 = held_.negative() - (!dead && !(singular_ && one_held) && machine < 0.0 ? 1 : 0);
   if (singular_) {
     found.directions = static_cast<int>(n0 + free);
@@ -169,7 +245,7 @@ Stability StabilityProblem::Under(double compliance) const {
     } else if (held_.symmetric() || sign < 0) {
       found.verdict = Verdict::kUnstable;
     }
-    if (n0 > 0 && dead) found.direction = held_.FallingMode(load_compliance_ < 0.0 ? by_load_ : Eigen::VectorXd());
+    if (n0 > 0) found.direction = falling_mode();
     if (found.verdict == Verdict::kNotProved) found.directions = -1;
     return found;
   }
@@ -201,8 +277,8 @@ Stability StabilityProblem::Under(double compliance) const {
         std::max_element(growing.begin(), growing.end(), [](const auto& a, const auto& b) { return a.rate < b.rate; });
     const Eigen::VectorXd z = scale.asDiagonal() * fastest->z;
     found.direction = Normalised(motions_ * z - (dead ? 0.0 : share * load_of_slips_.dot(z)) * by_load_);
-  } else if (n0 > 0 && dead) {
-    found.direction = held_.FallingMode(load_compliance_ < 0.0 ? by_load_ : Eigen::VectorXd());
+  } else if (n0 > 0) {
+    found.direction = falling_mode();
   }
   return found;
 }

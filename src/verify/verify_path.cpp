@@ -208,8 +208,9 @@ class StageVerifier {
     const double unit = machine ? stage_.scaling.length : stage_.scaling.load_factor;
     findings_.Bound("the path parameter goes back", -change / unit,
                     kSingular * (1.0 + std::abs(machine ? increment.setting : increment.load_factor) / unit));
+    // At an onset as at a bifurcation, a disturbance may set out too slowly to be followed.
     if (increment.kind == IncrementKind::kJump || before.kind == IncrementKind::kBifurcation ||
-        !(increment.arc_length > before.arc_length))
+        before.kind == IncrementKind::kOnset || !(increment.arc_length > before.arc_length))
       return;
     if ((machine ? before.stability.stability_controlled : before.stability.stability) == Verdict::kUnstable)
       findings_.Report("is reached along a path from a point that is unstable under the machine");

@@ -117,6 +117,15 @@ TEST(Toys, APitchfork) {
   EXPECT_EQ(walk.ToEvent(3).step.end.determinant_sign, -before);
 }
 
+// Steps of 1/8 end on it.
+TEST(Toys, APitchforkAtTheEndOfAStep) {
+  const StepLimits limits = {1e-9, 0.125, 1e-3, 0.98};
+  Walk walk(Pitchforks(1), Vector2d(0.0, -0.5), Vector2d(0.0, 1.0));
+  ASSERT_EQ(walk.ToEvent(10, {}, limits).event.Kind(), EventKind::kBifurcation);
+  EXPECT_NEAR(walk.at().x.norm(), 0.0, 1e-15);
+  EXPECT_EQ(walk.ToEvent(3, {}, limits).event.Kind(), EventKind::kNone);
+}
+
 TEST(Toys, SeveralPitchforksAtOnePoint) {
   for (const std::size_t n : {2U, 3U, 4U, 7U}) {
     SCOPED_TRACE(n);

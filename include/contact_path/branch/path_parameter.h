@@ -3,6 +3,7 @@
 #define CONTACT_PATH_BRANCH_PATH_PARAMETER_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "contact_path/equations/measured.h"
 #include "contact_path/tolerances.h"
@@ -25,9 +26,10 @@ class PathParameter {
   double Rate(const Eigen::VectorXd& first, Eigen::Index n) const {
     return gradient_.size() == 0 ? sense_ * first[n - 1] : gradient_.dot(first.head(n));
   }
-  // 1: it goes on, -1: it goes back, 0: it rests to first order. error: of the rate.
+  // 1: it goes on, -1: it goes back, 0: it rests to first order. error: of the rate of the load factor; that of a
+  // setting is at least kRate, since a displacement that rests has the sign of rounding.
   int Sense(const Eigen::VectorXd& first, Eigen::Index n, double error = tolerances::kRate) const {
-    const int sign = Measured{Rate(first, n), error}.Sign();
+    const int sign = Measured{Rate(first, n), IsLoadFactor() ? error : std::max(error, tolerances::kRate)}.Sign();
     return sign == 0 && IsRigid() ? Measured{sense_ * first[n - 1], error}.Sign() : sign;
   }
   // The same to second order.

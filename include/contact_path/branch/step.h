@@ -8,6 +8,7 @@
 #include "contact_path/branch/polynomial.h"
 #include "contact_path/equations/jet.h"
 #include "contact_path/equations/measured.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 
@@ -18,8 +19,8 @@ struct CurvePoint {
   Eigen::VectorXd second;    // orthogonal to first in (u, s)
   Eigen::Index nullity = 0;  // null directions of the equations besides the tangent
   int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
-  int side = 0;  // determinant_sign; where it is 0 at a regular point, by rounding, `side` of the step's start
-  double load_error = 0.0;  // of first of the load factor, where that is small: what rounding leaves of it
+  int side = 0;              // determinant_sign; where it is 0, but where a curve crosses, `side` of the step's start
+  double load_error = 0.0;   // of first of the load factor, where that is small: what rounding leaves of it
   // Sign of that rate; where it cannot be told from zero, the one that was told last on the arc, and at a limit point
   // the one beyond. 0: not told yet.
   int load_sense = 0;
@@ -29,6 +30,9 @@ struct CurvePoint {
   // The equations are singular here and not along the arc, whatever rounding says.
   void BeSingular() { determinant_sign = side = 0; }
 };
+
+// The unknowns a little farther along the curve.
+inline Eigen::VectorXd Ahead(const CurvePoint& at) { return at.x + tolerances::kNextToStart * at.first; }
 
 // Turns the point onto another curve through it.
 inline void TakeCurve(const Eigen::VectorXd& first, const Eigen::VectorXd& second, Eigen::Index load,

@@ -28,9 +28,10 @@ class StabilityMonitor {
   // that closes, or comes to stick, is free to do what it did where it arrives; one that opens, or comes to slip, what
   // it does where it leaves. On a kink of a surface, and where several contacts change, both sides count.
   enum class Decides { kArrival, kDeparture, kBoth };
-  void NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, Decides decides);
-  // An equilibrium from which a path sets out, with the states of its arc. ahead: null where none leads on.
-  void Start(const PathPoint& point, const CurvePoint* ahead);
+  // next: to it on that curve.
+  void NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, const PathPoint& next, Decides decides);
+  // An equilibrium from which a path sets out, with the states of its arc. ahead, next: null where none leads on.
+  void Start(const PathPoint& point, const CurvePoint* ahead, const PathPoint* next);
 
   const StabilityRecord& record() const { return record_; }
   // Under the machine of the path.
@@ -46,7 +47,7 @@ class StabilityMonitor {
   struct Verdicts {
     Stability dead, controlled, under_machine;
   };
-  void Count(const PathPoint& point, const Eigen::MatrixXd& null_directions);
+  void Count(const PathPoint& point, const Eigen::MatrixXd& null_directions, const PathPoint* next = nullptr);
   // With n0, where no contact slides.
   void Follow(const CurvePoint& at, int falls);
   void Write(const Verdicts& of, const Eigen::VectorXd& u, const CurvePoint* at);

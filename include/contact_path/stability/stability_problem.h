@@ -3,6 +3,8 @@
 #define CONTACT_PATH_STABILITY_STABILITY_PROBLEM_H_
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "contact_path/equations/fixed_mode_system.h"
@@ -37,6 +39,10 @@ struct Stability {
 // drags the nodes of S have, if all other nodes follow at once: sym H is strictly copositive, since z .
 // (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of other nodes may let go what H holds. That is
 // shown where it is so without what artificial elements add to H, and as much again.
+//
+// What touches without force may move apart: without friction it is in S, v_n in place of z and rho_n in place of w.
+// The equilibrium is stable if it is so with all of that idle. With friction it counts as idle, and a growing motion
+// makes the equilibrium unstable if it moves all of it apart, or grows as well in the states of the arc.
 class StabilityProblem {
  public:
   // Both must outlive the problem.
@@ -45,7 +51,9 @@ class StabilityProblem {
   // Looks at an equilibrium inside an arc, or at an end of it with the modes of the arc: ports that follow are S, all
   // that are held are D. null_directions: of the tangent, columns du, where the equations are known to be
   // singular; else none.
-  void Set(const PathPoint& point, const Eigen::MatrixXd& null_directions);
+  // ahead: a point next to it on the arc that leaves; null: on all arcs, it is in question. What touches there is what
+  // touches all along.
+  void Set(const PathPoint& point, const Eigen::MatrixXd& null_directions, const PathPoint* ahead = nullptr);
 
   // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
   // control. Without reference loads the machine is rigid already: as with dead loads.
@@ -62,7 +70,19 @@ class StabilityProblem {
     Eigen::Index leading, following;  // unknowns of the forces of its ports, without the load factor
   };
 
-  void Classify(const PathPoint& point);
+  // What touches without force: a law, its states where it is idle and where it bears, and whether it has friction.
+  struct Touching {
+    std::size_t number;
+    int idle;
+    Mode bears;
+    bool rubs;
+  };
+
+  void FindTouching(const PathPoint& point, const PathPoint& ahead);
+  void Classify(Modes modes);
+  Stability Decide(double compliance) const;
+  // Whether the direction, or where nothing slides its reverse, moves apart all that touches and rubs without force.
+  bool Opens(Eigen::VectorXd* direction) const;
   bool Condense(const PathPoint& point);
   // The sense in which the slips of the null direction are those of the contacts; 0: in none.
   double PossibleSense() const;
@@ -72,6 +92,12 @@ class StabilityProblem {
   const Laws& laws_;
   FixedModeSystem system_;
   HeldStiffness held_;
+
+  std::vector<Touching> touching_;
+  bool releases_ = true;  // looks for them
+  // The same problem with all of them idle, and the point then; the same with all of them in the states of the arc.
+  std::unique_ptr<StabilityProblem> free_, as_is_;
+  PathPoint point_;
 
   std::vector<Slip> slips_;
   bool covered_ = true;            // by the theory: no holonomic law
