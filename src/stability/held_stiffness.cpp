@@ -183,7 +183,8 @@ double HeldStiffness::EnergyAt(Eigen::Index force, const Eigen::VectorXd& du) co
   return stiffest * squares;
 }
 
-Eigen::VectorXd HeldStiffness::FallingMode(const Eigen::VectorXd& likely, const Eigen::VectorXd& f, double k) const {
+Eigen::VectorXd HeldStiffness::FallingMode(const Eigen::VectorXd& likely, const Eigen::VectorXd& f,
+                                           double machine) const {
   const Eigen::Index nd = nd_, size = saddle_.rows();
   // Not more than there are motions that the laws admit: further columns of a basis would be none. What gives way
   // admits them.
@@ -200,7 +201,7 @@ Eigen::VectorXd HeldStiffness::FallingMode(const Eigen::VectorXd& likely, const 
         Eigen::HouseholderQR<Eigen::MatrixXd>(modes.topRows(nd)).householderQ() * Eigen::MatrixXd::Identity(nd, count);
     const Eigen::VectorXd work = basis.transpose() * f;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(basis.transpose() * (stiffness_ * basis) +
-                                                                k * work * work.transpose());
+                                                                machine * work * work.transpose());
     if (solver.eigenvalues()[0] < 0.0) return basis * solver.eigenvectors().col(0);
     modes.topRows(nd) = basis;
     modes.bottomRows(size - nd).setZero();

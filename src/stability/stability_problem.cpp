@@ -23,10 +23,13 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
         *other = std::make_unique<StabilityProblem>(structure_, laws_);
         (*other)->releases_ = false;
       }
-    as_is_->Set(point, null_directions);
     point_ = point;
     for (const Touching& law : touching_) point_.modes[law.number].state = law.idle;
     free_->Set(point_, null_directions);
+    // Where nothing slides, no machine makes it worse.
+    slips_.clear();
+    if (free_->slips_.empty() && free_->Decide(INFINITY).verdict == Verdict::kStable) return;
+    as_is_->Set(point, null_directions);
   }
   PathPoint held = point;
   for (const Touching& law : touching_) held.modes[law.number] = law.rubs ? point_.modes[law.number] : law.bears;

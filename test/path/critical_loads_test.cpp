@@ -104,7 +104,7 @@ TEST(CriticalLoads, AMastWithGuysOfTheLengthThatTheyHave) {
     for (const double EA : {50.0, 5e5}) {
       SCOPED_TRACE(testing::Message() << guys << " " << EA);
       const std::string sense = guys == std::string("bars") ? ", sense: tension" : "";
-      const TracedPath path = Traced(R"(
+      const std::string mast = R"(
 scene:
   name: mast
   bodies:
@@ -118,20 +118,24 @@ scene:
   pins:
   - {nodes: [ground, foot]}
   )" + std::string(guys) +
-                                     R"(:
-  - {nodes: [left, head], EA: )" + Text(EA) +
-                                     sense + R"(}
-  - {nodes: [right, head], EA: )" + Text(EA) +
-                                     sense + R"(}
+                               R"(:
+  - {nodes: [left, head], EA: )" +
+                               Text(EA) + sense + R"(}
+  - {nodes: [right, head], EA: )" +
+                               Text(EA) + sense + R"(}
 program:
 - name: press
   loads:
   - {node: head, fy: -1.0}
-  target: )" + Text(EA) + R"(
-options: {at_limit: stop}
-)");
+  target: )" + Text(0.6 * EA) + R"(
+options: {at_limit: )";
+      const double critical = 4.0 * EA * 9.0 / 125.0;
+      const TracedPath path = Traced(mast + "stop}\n"), followed = Traced(mast + "follow}\n");
       EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
-      EXPECT_NEAR(LeavesStability(path).load_factor, 4.0 * EA * 9.0 / 125.0, 1e-6 * EA);
+      EXPECT_NEAR(LeavesStability(path).load_factor, critical, 1e-6 * EA);
+      ASSERT_TRUE(followed.result.reached) << followed.result.message;
+      EXPECT_EQ(followed.increments.back().stability.stability, Verdict::kUnstable);
+      ExpectNoFindings(followed);
     }
 }
 

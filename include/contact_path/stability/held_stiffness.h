@@ -46,9 +46,9 @@ class HeldStiffness {
   double EnergyAt(Eigen::Index force, const Eigen::VectorXd& du) const;
   // Norm of the stiffness against a unit motion of one component of u.
   double StiffnessOf(Eigen::Index dof) const { return stiffness_.col(dof).norm(); }
-  // A motion along which the energy of K + k f f' falls, among the softest ones, by inverse iterations of a subspace;
-  // empty: none is found. likely: one of the motions to begin with, or empty.
-  Eigen::VectorXd FallingMode(const Eigen::VectorXd& likely, const Eigen::VectorXd& f, double k) const;
+  // A motion along which the energy of K + machine f f' falls, among the softest ones, by inverse iterations of a
+  // subspace; empty: none is found. likely: one of the motions to begin with, or empty.
+  Eigen::VectorXd FallingMode(const Eigen::VectorXd& likely, const Eigen::VectorXd& f, double machine) const;
 
  private:
   Eigen::Index PlaceOf(Eigen::Index force) const { return places_[static_cast<std::size_t>(force - nd_)]; }
