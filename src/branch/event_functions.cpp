@@ -336,11 +336,12 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   }
   for (const Limit& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
-    // What counts as zero where a branch sets out fails only as it falls.
-    const double zero = equations.IsOfRate(constraint)
-                            ? zero_rate
-                            : std::max(arc->RoundingOf(constraint),
-                                       std::min(-quintic[0], tolerances::kActive * equations.UnitOf(constraint)));
+    double zero = equations.IsOfRate(constraint) ? zero_rate : arc->RoundingOf(constraint);
+    // What counts as zero where a branch sets out does not fail as it rises.
+    const double below = equations.IsOfRate(constraint) ? 0.0 : -quintic[0];
+    if (below > zero && below <= tolerances::kActive * equations.UnitOf(constraint) &&
+        quintic[1] * step.length > tolerances::kSmallShare * below)
+      zero = below;
     double where = 0.0;
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider({*t, constraint});

@@ -59,7 +59,7 @@ void StabilityProblem::FindTouching(const PathPoint& point, const PathPoint& ahe
     if (law.In(found.bears).idle) {
       found.idle = found.bears.state;
       const auto motion = [&](const PathPoint& at) { return law.Motion(0, at.u, at.s, found.bears.piece, {}); };
-      if (std::max(motion(point), motion(ahead)) > tolerances::kRootOfRounding) continue;
+      if (std::max(std::abs(motion(point)), motion(ahead)) > tolerances::kRootOfRounding) continue;
       while (law.In(found.bears).idle) found.bears.state = (found.bears.state + 1) % law.NumStates();
     } else {
       const Eigen::Index force = laws_.FirstPort(i);
