@@ -9,8 +9,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kAhead = 0.1;      // of the wanted step: where a branch, or a load that is level, is looked at again
-constexpr double kFarAhead = 0.05;  // at most, or the wanted step
+// Of the wanted step: where a branch, or a load that is level, is looked at again. A branch up to this length, too.
+constexpr double kAhead = 0.1;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ std::size_t EventPassing::StableBranch(const std::vector<Branch>& branches) {
   const auto leads_on = [&](const Branch& branch) {
     if (limit_->parameter().Sense(branch.first, branch.second, n, tolerances::kRate) < 0) return false;
     // Stiffness grows with the square of the distance: near the point, stiff parts may hide it.
-    for (double length = kAhead * options_.step; length <= std::max(kFarAhead, options_.step); length *= 2.0) {
+    for (double length = kAhead * options_.step; length <= std::max(kAhead, options_.step); length *= 2.0) {
       const Eigen::VectorXd ahead = current_->x + length * branch.first + 0.5 * length * length * branch.second;
       const Correction there = arc_->CorrectOnPlane(ahead, branch.first.head(n));
       if (!there.converged || !(limit_->parameter().Rate(there.x - current_->x, n) > 0.0)) return false;

@@ -14,7 +14,6 @@ constexpr double kBeside = 1e-6;              // of the length of the scene
 constexpr double kKink = 1e-3;                // of the stiffness: what differs on both sides
 constexpr double kSoftest = 1e-6;             // of the largest stiffness, below which rounding bends
 constexpr double kNoStiffness = 1e-13;        // of the largest one: rounding
-constexpr double kNoForce = 1e-10;            // of the characteristic force
 
 Eigen::VectorXd AsVector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -279,10 +278,7 @@ std::optional<DisturbedIncrement> Differences::At(const Increment& increment) {
   if (found.components.empty() || found.components.size() > kMostComponents) return std::nullopt;
   const CheckedState at = StateOf(increment);
   // What touches without force may move apart, or not.
-  if (std::any_of(increment.contacts.begin(), increment.contacts.end(), [&](const ContactRecord& contact) {
-        return contact.state != ContactState::kOpen && contact.rn <= kNoForce * stage_.scaling.force;
-      }))
-    return std::nullopt;
+  if (TouchesWithoutForce(increment, stage_.scaling)) return std::nullopt;
   // By two steps, which tell how far differences are to be trusted.
   const double step = std::cbrt(std::numeric_limits<double>::epsilon());
   if (groups_.empty() || increment.bars != bars_of_groups_ || Touching(increment) != touching_in_groups_)

@@ -18,6 +18,7 @@
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
+#include "contact_path/tolerances.h"
 #include "contact_path/verify/verify_path.h"
 
 namespace contact_path {
@@ -33,6 +34,13 @@ inline constexpr double kRoundingOfParts = 1e-14;
 
 // Over F: what residuals are measured in. stiffest: force of the stiffest node for a motion of L, over F.
 inline double ResidualUnit(double stiffest) { return std::max(1.0, kStiff * stiffest); }
+
+// Whether a contact that is not open carries nothing: it may let go.
+inline bool TouchesWithoutForce(const Increment& increment, const Scaling& scaling) {
+  return std::any_of(increment.contacts.begin(), increment.contacts.end(), [&](const ContactRecord& contact) {
+    return contact.state != ContactState::kOpen && contact.rn <= tolerances::kActive * scaling.force;
+  });
+}
 
 struct VerifiedContact {
   std::size_t node = 0;

@@ -239,11 +239,9 @@ class EventVerifier {
     const bool smooth = now.kind == IncrementKind::kRegular || now.kind == IncrementKind::kSample;
     // Where contacts slip, or something touches without force, unstable directions are no eigenvectors of the
     // stiffness. The force of a bar is not on record.
-    const double no_force = 1e-10 * scaling_.force;
-    const bool slips =
-        !now.bars.empty() || std::any_of(now.contacts.begin(), now.contacts.end(), [&](const ContactRecord& contact) {
-          return Slips(contact.state) || (contact.state != ContactState::kOpen && contact.rn <= no_force);
-        });
+    const bool slips = !now.bars.empty() || TouchesWithoutForce(now, scaling_) ||
+                       std::any_of(now.contacts.begin(), now.contacts.end(),
+                                   [](const ContactRecord& contact) { return Slips(contact.state); });
     if (!smooth || slips || now.stability.unstable_directions < 0 || std::abs(change) <= level_) return;
     const int parity = now.stability.unstable_directions % 2 == 0 ? 1 : -1;
     const int relation = sign * parity * (change > 0.0 ? 1 : -1);

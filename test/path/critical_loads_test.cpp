@@ -4,24 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "contact_path/path/trace.h"
-#include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
 namespace contact_path::critical_loads_test {
 namespace {
-
-std::string Text(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << std::fixed << value;
-  return text.str();
-}
-
-TracedPath Traced(const std::string& text) { return TraceIncrements(ReadTraceRequest(text, "test")); }
 
 // The first increment that is not stable, or the last one.
 const Increment& LeavesStability(const TracedPath& path) {
@@ -32,34 +23,31 @@ const Increment& LeavesStability(const TracedPath& path) {
 
 // A rigid column of the length l on a pin with a spring k, under a dead load up to twice the critical one, k / l.
 // contacts: of its head with walls, "left" at the distance 0 and "right" far off.
-std::string Column(double l, double k, const std::string& contacts, const std::string& options) {
-  return R"(
+TracedPath Column(double l, double k, const std::string& contacts, const std::string& options) {
+  return TraceText(R"(
 scene:
   name: column
   bodies:
   - {name: ground, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
-  - {name: column, x: 0.0, y: )" +
-         Text(l) + R"(}
+  - {name: column, x: 0.0, y: <l>}
   nodes:
   - {name: foot, x: 0.0, y: 0.0, body: column}
-  - {name: head, x: 0.0, y: )" +
-         Text(l) + R"(, body: column}
+  - {name: head, x: 0.0, y: <l>, body: column}
   pins:
-  - {nodes: [ground, foot], stiffness: )" +
-         Text(k) + R"(}
+  - {nodes: [ground, foot], stiffness: <k>}
   obstacles:
   - {name: left, nx: 1.0}
-  - {name: right, px: )" +
-         Text(0.9 * l) + R"(, nx: -1.0}
+  - {name: right, px: <far>, nx: -1.0}
   contacts:
-)" + contacts +
-         R"(
+)" + contacts + R"(
 program:
 - name: press
   loads:
   - {node: head, fy: -1.0}
-  target: )" +
-         Text(2.0 * k / l) + "\noptions: {" + options + "}\n";
+  target: <target>
+options: {)" + options +
+                       "}\n",
+                   {{"l", l}, {"k", k}, {"far", 0.9 * l}, {"target", 2.0 * k / l}});
 }
 
 // Whatever the length of a step is, and where it ends.
@@ -69,7 +57,7 @@ TEST(CriticalLoads, AStepMayEndOnABifurcation) {
       for (const char* step : {"0.02", "0.1", "0.013"}) {
         SCOPED_TRACE(testing::Message() << l << " " << k << " " << step);
         const std::string right = "  - {node: head, obstacle: right}";
-        const TracedPath path = Traced(Column(l, k, right, std::string("at_limit: stop, step: ") + step));
+        const TracedPath path = Column(l, k, right, std::string("at_limit: stop, step: ") + step);
         ASSERT_TRUE(path.result.reached) << path.result.message;
         const std::vector<Increment> found = IncrementsOfKind(path, IncrementKind::kBifurcation);
         ASSERT_EQ(found.size(), 1U);
@@ -87,11 +75,11 @@ TEST(CriticalLoads, AColumnBesideAWall) {
         SCOPED_TRACE(testing::Message() << l << " " << k << " " << friction);
         const std::string walls = std::string("  - {node: head, obstacle: left, friction: ") + friction +
                                   "}\n  - {node: head, obstacle: right}";
-        const TracedPath stops = Traced(Column(l, k, walls, "at_limit: stop, step: 0.0137"));
+        const TracedPath stops = Column(l, k, walls, "at_limit: stop, step: 0.0137");
         EXPECT_EQ(stops.result.reason, EndReason::kAtLimit) << stops.result.message;
         EXPECT_NEAR(LeavesStability(stops).load_factor, k / l, 1e-6 * k / l);
         ExpectNoFindings(stops);
-        const TracedPath jumps = Traced(Column(l, k, walls, "at_limit: jump, step: 0.0137"));
+        const TracedPath jumps = Column(l, k, walls, "at_limit: jump, step: 0.0137");
         EXPECT_TRUE(jumps.result.reached) << jumps.result.message;
         EXPECT_NEAR(jumps.increments.back().contacts[1].gap, 0.0, 1e-6);
         ExpectNoFindings(jumps);
@@ -117,20 +105,20 @@ scene:
   - {name: right, x: 3.0, y: 0.0, fixed_x: true, fixed_y: true}
   pins:
   - {nodes: [ground, foot]}
-  )" + std::string(guys) +
-                               R"(:
-  - {nodes: [left, head], EA: )" +
-                               Text(EA) + sense + R"(}
-  - {nodes: [right, head], EA: )" +
-                               Text(EA) + sense + R"(}
+  )" + std::string(guys) + R"(:
+  - {nodes: [left, head], EA: <EA>)" +
+                               sense + R"(}
+  - {nodes: [right, head], EA: <EA>)" +
+                               sense + R"(}
 program:
 - name: press
   loads:
   - {node: head, fy: -1.0}
-  target: )" + Text(0.6 * EA) + R"(
+  target: <target>
 options: {at_limit: )";
+      const std::map<std::string, double> values = {{"EA", EA}, {"target", 0.6 * EA}};
       const double critical = 4.0 * EA * 9.0 / 125.0;
-      const TracedPath path = Traced(mast + "stop}\n"), followed = Traced(mast + "follow}\n");
+      const TracedPath path = TraceText(mast + "stop}\n", values), followed = TraceText(mast + "follow}\n", values);
       EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
       EXPECT_NEAR(LeavesStability(path).load_factor, critical, 1e-6 * EA);
       ASSERT_TRUE(followed.result.reached) << followed.result.message;
@@ -141,7 +129,7 @@ options: {at_limit: )";
 
 // Between two pads on springs of 9, at no distance: the column leans on one of them, and may do so from 10 on.
 TEST(CriticalLoads, AColumnBetweenPads) {
-  const TracedPath path = Traced(R"(
+  const TracedPath path = TraceText(R"(
 scene:
   name: pads
   bodies:
@@ -181,24 +169,21 @@ TEST(CriticalLoads, AColumnThatIsTurned) {
   for (const double angle : {0.0, 0.3, 0.55, 1.2})
     for (const char* step : {"0.0", "0.005"}) {
       SCOPED_TRACE(testing::Message() << angle << " " << step);
-      const double c = std::cos(angle), s = std::sin(angle);
-      const TracedPath path = Traced(R"(
+      const TracedPath path = TraceText(std::string(R"(
 scene:
   name: cantilever
   nodes:
   - {name: root, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
-  - {name: tip, x: )" + Text(-s) +
-                                     ", y: " + Text(c) + R"(}
+  - {name: tip, x: -<s>, y: <c>}
   beams:
   - {nodes: [root, tip], EA: 1000000.0, EI: 1.0, segments: 20}
 program:
 - name: press
   loads:
-  - {node: tip, fx: )" + Text(s) +
-                                     ", fy: " + Text(-c) + R"(}
+  - {node: tip, fx: <s>, fy: -<c>}
   target: 2.6
-options: {at_limit: stop, step: )" + step +
-                                     "}\n");
+options: {at_limit: stop, step: )") + step + "}\n",
+                                        {{"s", std::sin(angle)}, {"c", std::cos(angle)}});
       EXPECT_TRUE(path.result.reached) << path.result.message;
       EXPECT_EQ(path.increments.back().stability.stability, Verdict::kStable);
     }
@@ -207,34 +192,32 @@ options: {at_limit: stop, step: )" + step +
 // A block on a rough floor that a rigid machine pushes along against a bar: it sticks up to 0.3, and is then moved by
 // 0.7.
 TEST(CriticalLoads, ARigidMachinePushesWhatSticks) {
-  for (int i = 0; i < 12; ++i) {
-    const double angle = 0.05 + 0.5 * i, c = std::cos(angle), s = std::sin(angle);
+  for (int i = 0; i < 60; ++i) {
+    const double angle = 0.05 + 0.1 * i;
     SCOPED_TRACE(angle);
-    const TracedPath path = Traced(R"(
+    const TracedPath path =
+        TraceText(R"(
 scene:
   name: slider
   nodes:
-  - {name: a, x: )" + Text(-c) +
-                                   ", y: " + Text(-s) + R"(, fixed_x: true, fixed_y: true}
+  - {name: a, x: <ax>, y: <ay>, fixed_x: true, fixed_y: true}
   - {name: b, x: 0.0, y: 0.0}
   bars:
   - {nodes: [a, b], EA: 1.0}
   loads:
-  - {node: b, fx: )" + Text(s) +
-                                   ", fy: " + Text(-c) + R"(, constant: true}
+  - {node: b, fx: <s>, fy: <ax>, constant: true}
   obstacles:
-  - {name: floor, nx: )" + Text(-s) +
-                                   ", ny: " + Text(c) + R"(, friction: 0.3}
+  - {name: floor, nx: <ay>, ny: <c>, friction: 0.3}
   contacts:
   - {node: b, obstacle: floor}
 program:
 - name: push
   loads:
-  - {node: b, fx: )" + Text(c) +
-                                   ", fy: " + Text(s) + R"(}
+  - {node: b, fx: <c>, fy: <s>}
   target: 1.0
 options: {machine_stiffness: .inf, at_limit: stop}
-)");
+)",
+                  {{"c", std::cos(angle)}, {"s", std::sin(angle)}, {"ax", -std::cos(angle)}, {"ay", -std::sin(angle)}});
     ASSERT_TRUE(path.result.reached) << path.result.message;
     EXPECT_NEAR(path.increments.back().dissipation, 0.21, 1e-8);
   }
@@ -245,7 +228,7 @@ options: {machine_stiffness: .inf, at_limit: stop}
 TEST(CriticalLoads, AMachineLetsAColumnGo) {
   for (const double K : {0.1, 1.0}) {
     SCOPED_TRACE(K);
-    const TracedPath path = Traced(R"(
+    const TracedPath path = TraceText(R"(
 scene:
   name: between_springs
   nodes:
@@ -268,8 +251,9 @@ program:
   loads:
   - {node: t, fy: -1.0}
   target: 3.0
-options: {at_limit: jump, machine_stiffness: )" +
-                                   Text(K) + "}\n");
+options: {at_limit: jump, machine_stiffness: <K>}
+)",
+                                      {{"K", K}});
     EXPECT_TRUE(path.result.reached) << path.result.message;
     const std::vector<Increment> jumps = IncrementsOfKind(path, IncrementKind::kJump);
     ASSERT_EQ(jumps.size(), 1U);

@@ -3,34 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <sstream>
 #include <string>
 
 #include "contact_path/path/trace.h"
-#include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
 namespace contact_path::forces_of_bodies_test {
 namespace {
 
-// values: of what stands as <name> in the text.
-TracedPath Traced(std::string text, const std::map<std::string, double>& values) {
-  for (const auto& [name, value] : values) {
-    std::ostringstream number;
-    number.precision(17);
-    number << std::fixed << value;
-    const std::string place = "<" + name + ">";
-    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place))
-      text.replace(at, place.size(), number.str());
-  }
-  return TraceIncrements(ReadTraceRequest(text, "test"));
-}
-
 // A plate comes from half a radius beside a disc, moves it on by half a radius to a wall, and is to go on by `beyond`
 // radii.
 TracedPath Clamped(double radius, double weight, double beyond) {
-  return Traced(R"(
+  return TraceText(R"(
 scene:
   name: clamped
   bodies:
@@ -53,7 +37,7 @@ program:
   - {body: plate, dx: -<r>}
   target: <target>
 )",
-                {{"r", radius}, {"away", 1.5 * radius}, {"w", weight}, {"target", 1.0 + beyond}});
+                   {{"r", radius}, {"away", 1.5 * radius}, {"w", weight}, {"target", 1.0 + beyond}});
 }
 
 TEST(ForcesOfBodies, ADiscThatIsClampedEndsThePath) {
@@ -74,7 +58,7 @@ TEST(ForcesOfBodies, ADiscThatIsClampedEndsThePath) {
 TEST(ForcesOfBodies, AWeightIsAsLargeAsItIs) {
   for (const double weight : {1e-3, 1.0, 1e4, 1e7}) {
     SCOPED_TRACE(weight);
-    const TracedPath path = Traced(R"(
+    const TracedPath path = TraceText(R"(
 scene:
   name: tilted
   bodies:
@@ -95,7 +79,7 @@ program:
   - {obstacle: floor, turn: 1.0}
   target: 0.3
 )",
-                                   {{"w", weight}});
+                                      {{"w", weight}});
     ASSERT_TRUE(path.result.reached) << path.result.message;
     const Increment& last = path.increments.back();
     EXPECT_NEAR(last.contacts[0].rn, (0.5 * std::cos(0.3) + std::sin(0.3)) * weight, 1e-8 * weight);
@@ -107,7 +91,7 @@ program:
 // A node on a spring is carried by a plane that turns by 1 about the origin.
 TEST(ForcesOfBodies, APlaneThatTurnsIsTheSameInOtherUnits) {
   const auto path_with = [](double length) {
-    return Traced(R"(
+    return TraceText(R"(
 scene:
   name: turns
   nodes:
@@ -124,7 +108,7 @@ program:
   - {obstacle: plane, turn: 1.0}
   target: 1.0
 )",
-                  {{"x", length}});
+                     {{"x", length}});
   };
   const TracedPath path = path_with(1.0);
   EXPECT_TRUE(path.result.reached) << path.result.message;
@@ -144,7 +128,7 @@ program:
 TEST(ForcesOfBodies, ARopeIsAPartThatHolds) {
   for (const double EA : {1e2, 1e4, 1e6}) {
     SCOPED_TRACE(EA);
-    const TracedPath path = Traced(R"(
+    const TracedPath path = TraceText(R"(
 scene:
   name: drawn
   nodes:
@@ -164,7 +148,7 @@ scene:
 options:
   at_limit: stop
 )",
-                                   {{"EA", EA}});
+                                      {{"EA", EA}});
     const auto slips = std::find_if(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
       return increment.kind == IncrementKind::kContactEvent && increment.load_factor > 0.0;
     });

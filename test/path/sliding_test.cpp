@@ -3,35 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "contact_path/path/trace.h"
-#include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
 namespace contact_path::sliding_test {
 namespace {
 
-std::string Text(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << std::fixed << value;
-  return text.str();
-}
-
-TracedPath Traced(const std::string& text) { return TraceIncrements(ReadTraceRequest(text, "test")); }
-
-// A block of the weight w on a rough floor, pushed by 0 to w at a height, from which a wall is as far as the block is
+// A block of the weight <w> on a rough floor, pushed at the height <h> by 0 to w, and a wall as far from it as it is
 // wide.
-struct Pushed {
-  double w = 2.0, height = 0.1;
-  bool wall_first = false;
-
-  TracedPath By(const std::string& options) const {
-    const std::string floor = "  - {node: l, obstacle: floor}\n  - {node: r, obstacle: floor}\n",
-                      wall = "  - {node: n, obstacle: wall}\n";
-    return Traced(R"(
+TracedPath Pushed(double w, double h, bool wall_first, const std::string& at_limit) {
+  const std::string floor = "  - {node: l, obstacle: floor}\n  - {node: r, obstacle: floor}\n",
+                    wall = "  - {node: n, obstacle: wall}\n";
+  return TraceText(R"(
 scene:
   name: pushed
   bodies:
@@ -39,37 +24,32 @@ scene:
   nodes:
   - {name: l, x: -0.5, y: 0.0, body: B}
   - {name: r, x: 0.5, y: 0.0, body: B}
-  - {name: t, x: -0.5, y: )" +
-                  Text(height) + R"(, body: B}
+  - {name: t, x: -0.5, y: <h>, body: B}
   - {name: n, x: 0.5, y: 0.4, body: B}
   obstacles:
   - {name: floor, shape: half_plane, ny: 1.0, friction: 0.4}
   - {name: wall, shape: half_plane, px: 1.5, nx: -1.0}
+  loads:
+  - {body: B, by: -<w>, constant: true}
   contacts:
 )" + (wall_first ? wall + floor : floor + wall) +
-                  R"(
-  loads:
-  - {body: B, by: -)" +
-                  Text(w) + R"(, constant: true}
-program:
+                       R"(program:
 - name: push
   loads:
-  - {node: t, fx: )" +
-                  Text(w) + R"(}
+  - {node: t, fx: <w>}
   target: 1.0
-options: {)" + options +
-                  "}\n");
-  }
-};
+options: {at_limit: )" +
+                       at_limit + "}\n",
+                   {{"w", w}, {"h", h}});
+}
 
 TEST(Sliding, ABlockIsPushedToAWall) {
   for (const double w : {2e-3, 2.0, 2e4})
     for (const double height : {0.05, 0.3, 0.5})
       for (const bool wall_first : {false, true}) {
         SCOPED_TRACE(testing::Message() << w << " " << height << " " << wall_first);
-        const Pushed pushed{w, height, wall_first};
         for (const char* at_limit : {"follow", "jump"}) {
-          const TracedPath path = pushed.By(std::string("at_limit: ") + at_limit);
+          const TracedPath path = Pushed(w, height, wall_first, at_limit);
           ASSERT_TRUE(path.result.reached) << path.result.message;
           EXPECT_TRUE(IncrementsOfKind(path, IncrementKind::kJump).empty());
           const std::size_t wall = wall_first ? 0 : 2;
@@ -84,7 +64,7 @@ TEST(Sliding, ABlockIsPushedToAWall) {
           EXPECT_GT(slides, 10);
           ExpectNoFindings(path);
         }
-        const TracedPath stopped = pushed.By("at_limit: stop");
+        const TracedPath stopped = Pushed(w, height, wall_first, "stop");
         EXPECT_EQ(stopped.result.reason, EndReason::kAtLimit) << stopped.result.message;
         EXPECT_NEAR(stopped.increments.back().load_factor, 0.4, 1e-8);
       }
@@ -93,7 +73,7 @@ TEST(Sliding, ABlockIsPushedToAWall) {
 // A floor that tilts slides a block down to a stop at tan(turn) = 0.4, and turns on.
 TEST(Sliding, ABlockOnATiltedFloor) {
   for (const char* at_limit : {"follow", "jump", "jump, step: 0.003"}) {
-    const TracedPath path = Traced(std::string(R"(
+    const TracedPath path = TraceText(std::string(R"(
 scene:
   name: tilted
   bodies:
@@ -117,8 +97,7 @@ program:
   - {obstacle: floor, turn: 1.0}
   - {obstacle: stop, turn: 1.0}
   target: 0.5
-options: {at_limit: )") + at_limit +
-                                   "}\n");
+options: {at_limit: )") + at_limit + "}\n");
     ASSERT_TRUE(path.result.reached) << path.result.message;
     EXPECT_NEAR(path.increments.back().contacts[2].rn, 2.0 * (std::sin(0.5) - 0.4 * std::cos(0.5)), 1e-7);
     ExpectNoFindings(path);
@@ -132,23 +111,22 @@ TEST(Sliding, ARopeRunsOverARoller) {
     for (const double radius : {0.01, 1.0})
       for (const char* at_limit : {"stop", "follow"}) {
         SCOPED_TRACE(testing::Message() << EA << " " << radius << " " << at_limit);
-        const TracedPath path = Traced(R"(
+        const TracedPath path = TraceText(R"(
 scene:
   name: capstan
   nodes:
   - {name: hub, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true}
-  - {name: A, x: -)" + Text(radius) + R"(, y: -3.0, fixed_x: true}
-  - {name: B, x: )" + Text(radius) + R"(, y: -3.0, fixed_x: true}
+  - {name: A, x: -<r>, y: -3.0, fixed_x: true}
+  - {name: B, x: <r>, y: -3.0, fixed_x: true}
   tendons:
-  - {nodes: [A, hub, B], radii: [0.0, )" +
-                                       Text(radius) + R"(, 0.0], turns: [0, -1, 0], EA: )" + Text(EA) +
-                                       R"(, friction: 0.3}
+  - {nodes: [A, hub, B], radii: [0.0, <r>, 0.0], turns: [0, -1, 0], EA: <EA>, friction: 0.3}
   loads:
   - {node: A, fy: -2.0, constant: true}
   - {node: B, fy: -2.0, constant: true}
   - {node: B, fy: -1.0}
-options: {max_increments: 20, at_limit: )" +
-                                       at_limit + "}\n");
+options: {max_increments: 20, at_limit: )" + at_limit +
+                                              "}\n",
+                                          {{"r", radius}, {"EA", EA}});
         const double limit = 2.0 * std::expm1(0.3 * std::acos(-1.0));
         if (path.result.reason == EndReason::kAtLimit) {
           EXPECT_NEAR(path.increments.back().load_factor, limit, 1e-7);
@@ -163,7 +141,7 @@ TEST(Sliding, ABoxThatIsTied) {
   for (const double up : {-0.3, -0.1, 0.0, 0.1, 0.3})
     for (const double EA : {0.5, 46.0, 1e4}) {
       SCOPED_TRACE(testing::Message() << up << " " << EA);
-      const TracedPath path = Traced(R"(
+      const TracedPath path = TraceText(R"(
 scene:
   name: tied
   bodies:
@@ -172,25 +150,28 @@ scene:
   - {name: l, x: -0.3, y: 0.0, body: box}
   - {name: r, x: 0.3, y: 0.0, body: box}
   - {name: ring, x: -0.3, y: 0.1, body: box}
-  - {name: wall, x: -1.5, y: )" + Text(0.1 + up) +
-                                     R"(, fixed_x: true, fixed_y: true}
+  - {name: wall, x: -1.5, y: <y>, fixed_x: true, fixed_y: true}
   obstacles:
   - {name: floor, shape: half_plane, ny: 1.0, friction: 0.2}
   contacts:
   - {node: l, obstacle: floor}
   - {node: r, obstacle: floor}
   tendons:
-  - {nodes: [wall, ring], EA: )" + Text(EA) +
-                                     R"(}
+  - {nodes: [wall, ring], EA: <EA>}
   loads:
   - {body: box, by: -0.7, constant: true}
   - {node: ring, fx: 1.0}
 options:
   stop:
   - {quantity: load_factor, when: '>', value: 0.2}
-)");
-      EXPECT_TRUE(path.result.reached) << path.result.message;
+)",
+                                        {{"y", 0.1 + up}, {"EA", EA}});
+      ASSERT_TRUE(path.result.reached) << path.result.message;
       ExpectNoFindings(path);
+      // The rope takes what friction, 0.14, does not.
+      if (up == 0.0) {
+        EXPECT_NEAR(PositionX(path, path.increments.back(), "ring"), -0.3 + 0.06 * 1.2 / EA, 1e-7);
+      }
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "contact_path/path/model.h"
 #include "contact_path/scene/expand.h"
+#include "contact_path/tolerances.h"
 #include "support/random.h"
 #include "support/seeds.h"
 #include "support/traced_path.h"
@@ -142,7 +143,7 @@ TEST(Verdicts, AgainstDenseMatrices) {
       if (increment.kind != IncrementKind::kRegular || !increment.event.branches.empty()) continue;
       // What touches without force is not held.
       if (std::any_of(increment.contacts.begin(), increment.contacts.end(), [&](const ContactRecord& contact) {
-            return contact.state != ContactState::kOpen && contact.rn <= 1e-10 * model.scaling.force;
+            return contact.state != ContactState::kOpen && contact.rn <= tolerances::kActive * model.scaling.force;
           }))
         continue;
       SCOPED_TRACE("seed " + std::to_string(seed) + ", increment " + std::to_string(increment.index));

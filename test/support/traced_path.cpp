@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/mpec_method.h"
@@ -79,6 +82,18 @@ double MotionAlong(const Surface& surface, const Eigen::Vector2d& from, const Ei
 
 TraceRequest ReadExample(const std::string& name) {
   return ReadTraceRequestFile(std::string(CONTACT_PATH_SCENES) + "/" + name + ".yaml");
+}
+
+TracedPath TraceText(std::string text, const std::map<std::string, double>& values) {
+  for (const auto& [name, value] : values) {
+    std::ostringstream number;
+    number.precision(17);
+    number << std::fixed << value;
+    const std::string place = "<" + name + ">";
+    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place))
+      text.replace(at, place.size(), number.str());
+  }
+  return TraceIncrements(ReadTraceRequest(text, "test"));
 }
 
 TracedPath TraceIncrements(const TraceRequest& request) {

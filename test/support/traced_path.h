@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct TracedPath {
 
 // The request in scenes/<name>.yaml.
 TraceRequest ReadExample(const std::string& name);
+
+// All increments of the request of this text, in which <name> stands for values[name].
+TracedPath TraceText(std::string text, const std::map<std::string, double>& values = {});
 
 // All increments of a request.
 TracedPath TraceIncrements(const TraceRequest& request);

@@ -40,9 +40,9 @@ struct Stability {
 // (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of other nodes may let go what H holds. That is
 // shown where it is so without what artificial elements add to H, and as much again.
 //
-// What touches without force may move apart: without friction it is in S, v_n in place of z and rho_n in place of w.
-// The equilibrium is stable if it is so with all of that idle. With friction it counts as idle, and a growing motion
-// makes the equilibrium unstable if it moves all of it apart, or grows as well in the states of the arc.
+// What touches without force may move apart: where it does not rub it is in S, v_n in place of z and rho_n in place of
+// w. The equilibrium is stable if it is so with all of that idle. What rubs counts as idle, and a growing motion makes
+// the equilibrium unstable if it moves all of that apart, or if one grows in the states of the arc as well.
 class StabilityProblem {
  public:
   // Both must outlive the problem.
@@ -60,7 +60,7 @@ class StabilityProblem {
   Stability Under(double compliance) const;
   // Whether the tangent is symmetric in these modes.
   bool IsSymmetric(const Modes& modes) const;
-  // Whether something slides.
+  // Whether something slides, or touches without force and may let go.
   bool HasSlips() const { return !slips_.empty(); }
 
  private:
@@ -70,7 +70,8 @@ class StabilityProblem {
     Eigen::Index leading, following;  // unknowns of the forces of its ports, without the load factor
   };
 
-  // What touches without force: a law, its states where it is idle and where it bears, and whether it has friction.
+  // What touches without force: a law, its states where it is idle and where it bears, and whether a port follows in
+  // another one.
   struct Touching {
     std::size_t number;
     int idle;
