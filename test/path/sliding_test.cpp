@@ -111,7 +111,7 @@ TEST(Sliding, ARopeRunsOverARoller) {
     for (const double radius : {0.01, 1.0})
       for (const char* at_limit : {"stop", "follow"}) {
         SCOPED_TRACE(testing::Message() << EA << " " << radius << " " << at_limit);
-        const TracedPath path = TraceText(R"(
+        const TracedPath path = TraceText(std::string(R"(
 scene:
   name: capstan
   nodes:
@@ -124,7 +124,7 @@ scene:
   - {node: A, fy: -2.0, constant: true}
   - {node: B, fy: -2.0, constant: true}
   - {node: B, fy: -1.0}
-options: {max_increments: 20, at_limit: )" + at_limit +
+options: {max_increments: 20, at_limit: )") + at_limit +
                                               "}\n",
                                           {{"r", radius}, {"EA", EA}});
         const double limit = 2.0 * std::expm1(0.3 * std::acos(-1.0));
