@@ -355,7 +355,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   }
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider({*t, {}, true});
   // A step may end on a crossing.
-  const bool crosses = step.start.side * step.end.side<0, lands = step.end.nullity> step.start.nullity;
+  const bool lands = step.start.nullity < step.end.nullity;
+  const bool crosses = step.start.side * step.end.side < 0;
   if ((crosses || lands) && !LookForCrossing(arc, step, &first) && crosses) return too_long;
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.Kind() == EventKind::kNone && equations.BeyondReach(step.end.x)) return too_long;

@@ -40,7 +40,8 @@ void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const 
   // Where supports or obstacles move besides, or friction changes, f . u does not tell the work along the path.
   const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
                            (model_.structure.PrescribedDofs().empty() && !IsDriven(model_.scene));
-  if (falls && known_ && loads_alone && null_directions.cols() == 0 && problem_.IsSymmetric(point.modes))
+  if (falls && known_ && loads_alone && null_directions.cols() == 0 && problem_.IsSymmetric(point.modes) &&
+      !problem_.TouchesWithoutForce(point))
     Follow(at, static_cast<int>(*falls));
   else
     Count(point, null_directions);

@@ -15,8 +15,7 @@ StabilityProblem::StabilityProblem(const Structure& structure, const Laws& laws)
     : structure_(structure), laws_(laws), system_(structure, laws) {}
 
 void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_directions, const PathPoint* ahead) {
-  touching_.clear();
-  if (releases_) FindTouching(point, ahead == nullptr ? point : *ahead);
+  touching_ = releases_ ? TouchingAt(point, ahead == nullptr ? point : *ahead) : std::vector<Touching>();
   if (!touching_.empty()) {
     for (auto* const other : {&free_, &as_is_})
       if (!*other) {
@@ -50,7 +49,11 @@ bool StabilityProblem::IsSymmetric(const Modes& modes) const {
   return true;
 }
 
-void StabilityProblem::FindTouching(const PathPoint& point, const PathPoint& ahead) {
+bool StabilityProblem::TouchesWithoutForce(const PathPoint& point) const { return !TouchingAt(point, point).empty(); }
+
+std::vector<StabilityProblem::Touching> StabilityProblem::TouchingAt(const PathPoint& point,
+                                                                     const PathPoint& ahead) const {
+  std::vector<Touching> touching;
   const ActiveSetTolerance zero = ActiveSetTolerance::For(laws_.LargestForce(point), point.s);
   for (std::size_t i = 0; i < point.modes.size(); ++i) {
     const Law& law = laws_[i];
@@ -66,8 +69,9 @@ void StabilityProblem::FindTouching(const PathPoint& point, const PathPoint& ahe
       if (std::max(point.forces[force], ahead.forces[force]) > zero.force * law.ForceUnit()) continue;
       while (!law.In(found.idle).idle) ++found.idle;
     }
-    touching_.push_back(found);
+    touching.push_back(found);
   }
+  return touching;
 }
 
 void StabilityProblem::Classify(Modes modes) {

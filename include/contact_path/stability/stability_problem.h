@@ -60,6 +60,8 @@ class StabilityProblem {
   Stability Under(double compliance) const;
   // Whether the tangent is symmetric in these modes.
   bool IsSymmetric(const Modes& modes) const;
+  // Whether something touches without force.
+  bool TouchesWithoutForce(const PathPoint& point) const;
   // Whether something slides, or touches without force and may let go.
   bool HasSlips() const { return !slips_.empty(); }
 
@@ -79,7 +81,7 @@ class StabilityProblem {
     bool rubs;
   };
 
-  void FindTouching(const PathPoint& point, const PathPoint& ahead);
+  std::vector<Touching> TouchingAt(const PathPoint& point, const PathPoint& ahead) const;
   void Classify(Modes modes);
   Stability Decide(double compliance) const;
   // Whether the direction, or where nothing slides its reverse, moves apart all that touches and rubs without force.
