@@ -53,8 +53,8 @@ TEST(Sliding, ABlockIsPushedToAWall) {
           ASSERT_TRUE(path.result.reached) << path.result.message;
           EXPECT_TRUE(IncrementsOfKind(path, IncrementKind::kJump).empty());
           const std::size_t wall = wall_first ? 0 : 2;
-          EXPECT_NEAR(path.increments.back().contacts[wall].rn, 0.6 * w, 1e-7 * w);
-          EXPECT_NEAR(path.increments.back().dissipation, 0.4 * w, 1e-6 * w);
+          EXPECT_NEAR(path.increments.back().contacts[wall].rn, 0.6 * w, 1e-8 * w);
+          EXPECT_NEAR(path.increments.back().dissipation, 0.4 * w, 1e-7 * w);
           int slides = 0;
           for (const Increment& increment : path.increments) {
             if (increment.kind != IncrementKind::kRegular || std::abs(increment.load_factor - 0.4) > 1e-9) continue;
@@ -99,7 +99,7 @@ program:
   target: 0.5
 options: {at_limit: )") + at_limit + "}\n");
     ASSERT_TRUE(path.result.reached) << path.result.message;
-    EXPECT_NEAR(path.increments.back().contacts[2].rn, 2.0 * (std::sin(0.5) - 0.4 * std::cos(0.5)), 1e-7);
+    EXPECT_NEAR(path.increments.back().contacts[2].rn, 2.0 * (std::sin(0.5) - 0.4 * std::cos(0.5)), 1e-8);
     ExpectNoFindings(path);
   }
 }
@@ -129,7 +129,7 @@ options: {max_increments: 20, at_limit: )") + at_limit +
                                           {{"r", radius}, {"EA", EA}});
         const double limit = 2.0 * std::expm1(0.3 * std::acos(-1.0));
         if (path.result.reason == EndReason::kAtLimit) {
-          EXPECT_NEAR(path.increments.back().load_factor, limit, 1e-7);
+          EXPECT_NEAR(path.increments.back().load_factor, limit, 1e-8);
         }
         EXPECT_EQ(path.result.reason == EndReason::kAtLimit, at_limit == std::string("stop")) << path.result.message;
         EXPECT_EQ(path.increments.back().stability.stability, Verdict::kNotProved);
@@ -170,7 +170,7 @@ options:
       ExpectNoFindings(path);
       // The rope takes what friction, 0.14, does not.
       if (up == 0.0) {
-        EXPECT_NEAR(PositionX(path, path.increments.back(), "ring"), -0.3 + 0.06 * 1.2 / EA, 1e-7);
+        EXPECT_NEAR(PositionX(path, path.increments.back(), "ring"), -0.3 + 0.06 * 1.2 / EA, 2e-8);
       }
     }
 }
