@@ -106,6 +106,14 @@ class MarkersTest(unittest.TestCase):
             self.assertEqual(len(points(picture, 'structure', 0)), 2 * wide)
             self.assertEqual(len(points(picture, 'structure', 2)) if thin else 0, 2 * thin)
 
+    def test_pins(self):
+        scene = slope()
+        scene.node('beside', x=3.0, y=1.0)
+        scene.pin(['beside', 'foot'])
+        increment = on_slope(bars=[0])
+        increment.x, increment.y = [*increment.x, 3.8], [*increment.y, 1.6]
+        self.equal(points(SceneMarkers(scene).draw(increment, 2.0), 'structure', 3), [(3.8, 1.6)])
+
     def test_structure_as_it_was_and_is(self):
         picture = SceneMarkers(slope()).draw(on_slope(), 2.0)
         self.equal(points(picture, 'initial', 0), [(0, 2), (3, 1), (3, 1), (5, 3)])

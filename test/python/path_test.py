@@ -19,7 +19,9 @@ ROOT = os.environ['CONTACT_PATH_ROOT']
 TRACE = os.path.join(os.environ['CONTACT_PATH_PROGRAMS'], 'contact_path_trace')
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 import contact_path as cp  # noqa: E402
+from contact_path.page.arrays import plain  # noqa: E402
 from contact_path.page.points import Points  # noqa: E402
+from contact_path.page.shapes import moving  # noqa: E402
 from contact_path.structure.arrays import Structure  # noqa: E402
 from contact_path.structure.shapes import Shape, View  # noqa: E402
 
@@ -193,7 +195,13 @@ class PathTest(ProgramTest):
             np.testing.assert_allclose(path['r%s_pin1' % axis], path['r%s_ground' % axis], atol=1e-12)
         N = path.response('sections')['N_bar1']
         np.testing.assert_allclose(N, np.hypot(path['x_end'] - 2.0, path['y_end'] + 1.0) - 1.0, atol=1e-12)
-        path.plot(shapes=True, file=self.path('s.png'))
+        figure = path.plot(shapes=True, file=self.path('s.png'))
+        legends = [text.get_text() for legend in figure.findobj(matplotlib.legend.Legend) for text in legend.get_texts()]
+        self.assertIn('pin', legends)
+        structure = Structure(path.scene)
+        self.assertEqual([structure.names[node] for node in structure.pins], ['axle'])
+        axle, = (own for own in moving(Points(structure, False)) if own['trace'].get('name') == 'pin')
+        self.assertEqual(axle['points'], plain(np.array(structure.pins), '<i4'))
         path.to_vtk(self.path('vtk'))
 
     def test_bars_that_are_slack(self):

@@ -12,6 +12,7 @@ picture replaces the one before, whatever the scene, and is whole by itself.
   structure       0  bars that bear, and beams: curves with the directions that the rotations of the nodes give
                   1  nodes, without the inner nodes of beams
                   2  bars that are slack, thin
+                  3  pins, in white
   superelements   0  lines from the nodes to their middle; of a single node, to its rest position
                   1  these middles
   solids          0  elements in the initial shape: their boundaries
@@ -252,6 +253,7 @@ class SceneMarkers:
         picture.lines('structure', 0, WIDE, BARS, Layer.BARS, joined([shape.bars[~shape.slack], chain(shape.beams)]))
         picture.dots('structure', 1, SPHERES, 1.0, BARS, Layer.NODES, shape.places[outer])
         picture.lines('structure', 2, THIN, BARS, Layer.BARS, joined([shape.bars[shape.slack], chain(shape.rims)]))
+        picture.dots('structure', 3, SPHERES, 0.7, '#ffffff', Layer.CANDIDATES, shape.places[structure.pins])
         rays = [(shape.places[node], hub) for (nodes, _), hub in zip(structure.superelements, shape.hubs) for node in nodes]
         picture.lines('superelements', 0, WIDE, SPRING, Layer.SPRINGS, rays)
         picture.dots('superelements', 1, CUBES, 1.0, SPRING, Layer.SPRINGS, shape.hubs)

@@ -118,6 +118,8 @@ def moving(points: Points) -> List[Entry]:
         mode = 'markers+text' if len(structure.names) <= FEW_NODES else 'markers'
         lines(np.flatnonzero(~structure.beams.inner), marker={'size': 4, 'color': BARS}, named=True, mode=mode,
               textposition='top right')
+    lines(np.array(structure.pins), mode='markers', name='pin', showlegend=True,
+          marker={'size': 5 if many else 8, 'color': '#ffffff', 'line': {'color': BARS, 'width': 1.2}})
     for numbers, symbol in supports(structure):
         lines(numbers, mode='markers', marker={'symbol': symbol, 'size': 10 if many else 16, 'color': '#888888',
                                                'line': {'color': '#404040', 'width': 1}})

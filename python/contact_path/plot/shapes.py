@@ -88,6 +88,7 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
         small = np.where(structure.beams.inner, 0.25, 1.0)
         axes.scatter(*structure.initial.T, s=8.0 * small, color=INITIAL, zorder=2, linewidths=0)
         axes.scatter(*shape.places.T, s=12.0 * small, color=BARS, zorder=4, linewidths=0)
+    axes.scatter(*shape.places[structure.pins].T, s=24.0 if not many else 8.0, color='white', edgecolors=BARS, linewidths=0.9, zorder=4.1)
     draw_supports(axes, shape, 300.0 if not many else 60.0)
     draw_forces(axes, shape, view)
     tips = view.unstable_arrows(shape)
@@ -290,6 +291,8 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
         handles.append(arrow(UNSTABLE, 'unstable direction'))
     if any(np.any(shape.slack) for shape in shapes):
         handles.append(Line2D([], [], color=BARS, linewidth=0.9, linestyle=':', label='slack bar'))
+    if any(structure.pins for structure in structures):
+        handles.append(Line2D([], [], color='white', marker='o', markersize=5, markeredgecolor=BARS, markeredgewidth=0.9, label='pin'))
     handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
     for kinds in dict.fromkeys(structure.hubs_are for structure in structures if structure.superelements):
         handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label=kinds))

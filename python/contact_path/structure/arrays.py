@@ -83,6 +83,8 @@ class Structure:
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
                               for part in scene['superelements'] if index[part['nodes'][0]] not in self.eyes]
         self.superelements += [([index[name] for name in nodes], np.array([])) for nodes in further if len(nodes) != 2]
+        # One node of each pin.
+        self.pins = [index[pin['nodes'][0]] for pin in scene.get('pins', [])]
         bodies = list(dict.fromkeys(node['body'] for node in scene['nodes'] if node['body']))
         self.hubs_are = ' or '.join([kind for kind, parts in (('superelement', self.superelements), ('body', bodies)) if parts])
         # A body is drawn as the lines from its nodes to their middle.
