@@ -117,9 +117,9 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
 
 // Where the path arrives at a limit that fails by a rate within the tolerance.
 End Departure::UnknownRate(const Limit& limit, const FixedModeSystem& system, const CurvePoint& at) const {
-  const double unit = system.RuleOf(limit).OfForces() ? model_.scaling.force : model_.scaling.length;
+  const double unit = system.OfModes().RuleOf(limit).OfForces() ? model_.scaling.force : model_.scaling.length;
   return {EndReason::kNotDetermined,
-          {UnknownRateCause(model_, limit, unit * system.Rate(limit, at.x, at.first),
+          {UnknownRateCause(model_, limit, unit * system.OfModes().Rate(limit, at.x, at.first),
                             unit * tolerances::kRate * system.UnitOf(limit))}};
 }
 

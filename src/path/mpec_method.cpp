@@ -259,7 +259,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, doub
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
-  for (const Limit& limit : system.Limits())
+  for (const Limit& limit : system.OfModes().All())
     if (system.Value(limit, nearest.x) < -tolerances::kResidual * system.UnitOf(limit)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;

@@ -371,7 +371,7 @@ class Jumper {
   double Energy(const PathPoint& point) const { return structure_.Energy(point.u) + laws_.Energy(point); }
 
   bool InequalitiesHold(const Eigen::VectorXd& x) const {
-    const std::vector<Limit> inequalities = arc_.system().Limits();
+    const std::vector<Limit> inequalities = arc_.system().OfModes().All();
     return std::all_of(inequalities.begin(), inequalities.end(), [&](const Limit& constraint) {
       return arc_.system().Value(constraint, x) >= -arc_.RoundingOf(constraint);
     });

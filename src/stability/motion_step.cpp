@@ -88,8 +88,8 @@ void MotionStepSolver::NoteActing(const PathPoint& from, const Change& change, c
 
 std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::VectorXd& x) const {
   std::vector<Change> changes;
-  for (const Limit& limit : system_.Limits()) {
-    const LimitRule& rule = system_.RuleOf(limit);
+  for (const Limit& limit : system_.OfModes().All()) {
+    const LimitRule& rule = system_.OfModes().RuleOf(limit);
     double tolerance = tolerances::kActive * rule.unit;
     if (rule.OfForces()) tolerance *= system_.ResidualUnit();
     const double excess = -system_.Value(limit, x) / tolerance;

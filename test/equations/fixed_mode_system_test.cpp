@@ -97,7 +97,7 @@ TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
       const std::string what = "contact " + std::to_string(i) + " " + std::string(ToString(state));
       system_.SetModes(ModesOf(states), ByPort(reference_));
       ExpectJacobian(what);
-      system_.SetActive(system_.Limits());
+      system_.SetActive(system_.OfModes().All());
       ExpectJacobian(what + ", all active");
       system_.FixLoadFactor(0.3);
       ExpectJacobian(what + ", all and the load factor active");
@@ -125,7 +125,7 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
     return value;
   };
   EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
-  for (const Limit& limit : system.Limits()) {
+  for (const Limit& limit : system.OfModes().All()) {
     const auto value = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, system.Value(limit, at)); };
     EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
   }
@@ -171,7 +171,7 @@ TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
     system_.SetModes(ModesOf({state, other, state, other, state == State::kOpen ? State::kOpen : State::kClosed}),
                      ByPort(random_.Vector(5, -0.3, 0.3)));
     for (const bool active : {false, true}) {
-      if (active) system_.SetActive(system_.Limits());
+      if (active) system_.SetActive(system_.OfModes().All());
       const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
       SCOPED_TRACE(ToString(state));
       ExpectDerivativesMeetDifferences(&system_, x, dx, kStep);
@@ -186,18 +186,18 @@ TEST_F(CurvedSystem, ValuesAlongACurveMeetDifferences) {
                         second = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
   const auto on_curve = [&](double h) { return Eigen::VectorXd(x + h * first + 0.5 * h * h * second); };
   const auto velocity = [&](double h) { return Eigen::VectorXd(first + h * second); };
-  for (const Limit& limit : system_.Limits()) {
+  for (const Limit& limit : system_.OfModes().All()) {
     const auto value = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
     };
     EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit, x).transpose(), kDerivativeTolerance, kStep));
-    EXPECT_NEAR(system_.Rate(limit, x, first), system_.Gradient(limit, x).dot(first), 10.0 * kRounding);
+    EXPECT_NEAR(system_.OfModes().Rate(limit, x, first), system_.Gradient(limit, x).dot(first), 10.0 * kRounding);
     const auto along = [&](const Eigen::VectorXd& h) {
-      return Eigen::VectorXd::Constant(1, system_.Rate(limit, on_curve(h[0]), velocity(h[0])));
+      return Eigen::VectorXd::Constant(1, system_.OfModes().Rate(limit, on_curve(h[0]), velocity(h[0])));
     };
     const Jet jet = system_.ValueAlong(limit, x, first, second);
     EXPECT_EQ(jet.value, system_.Value(limit, x));
-    EXPECT_EQ(jet.first, system_.Rate(limit, x, first));
+    EXPECT_EQ(jet.first, system_.OfModes().Rate(limit, x, first));
     EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Constant(1, 1, jet.second),
                            kDerivativeTolerance, kStep));
   }
@@ -262,7 +262,7 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
       {3, ContactLimit::kSlip, -slip(3)},
       {4, ContactLimit::kGap, contacts_[4]->Gap(point.u, point.s, 0)},
       {5, ContactLimit::kGap, contacts_[5]->Gap(point.u, point.s, 0)}};
-  const std::vector<Limit> limits = system_.Limits();
+  const std::vector<Limit> limits = system_.OfModes().All();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {
     EXPECT_EQ(limits[k].law, expected[k].contact) << k;
@@ -275,7 +275,7 @@ TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
   system_.SetModes(
       ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}),
       ByPort(reference_));
-  const std::vector<Limit> limits = system_.Limits();
+  const std::vector<Limit> limits = system_.OfModes().All();
   const Eigen::VectorXd x = system_.Pack(RandomPoint());
   system_.SetActive(limits);
   system_.FixLoadFactor(0.25);
@@ -292,12 +292,12 @@ TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
       ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}),
       ByPort(reference_));
   const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
-  for (const Limit& limit : system_.Limits()) {
+  for (const Limit& limit : system_.OfModes().All()) {
     const auto value = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
     };
     EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit, x).transpose()));
-    EXPECT_NEAR(system_.Rate(limit, x, dx), system_.Gradient(limit, x).dot(dx), kRounding);
+    EXPECT_NEAR(system_.OfModes().Rate(limit, x, dx), system_.Gradient(limit, x).dot(dx), kRounding);
   }
 }
 
