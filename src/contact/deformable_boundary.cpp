@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "contact_path/geometry/plane.h"
 #include "contact_path/tolerances.h"
@@ -65,68 +63,67 @@ XiRange BoundaryAt::RangeOf(int patch) const {
 }
 
 NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
-  NearestFoot nearest;
-  nearest.distance = std::numeric_limits<double>::infinity();
-  // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
-  double most = nearest.distance;
-  const auto consider = [&](int patch, double distance, bool is_joint, bool is_end) {
-    const double counted = is_joint ? (1.0 + tolerances::kActive) * distance : distance;
-    if (!(counted < most || (counted == most && patch < nearest.patch))) return;
-    most = counted;
-    nearest = {patch, distance, is_end};
-  };
+  NearestOfPatches nearest;
   for (int i = 0; i < NumPatches(); ++i) {
     if (!HasPatch(i)) continue;
     const SplinePatch patch = boundary_.Spline().Patch(i);
     const Parabola curve = ParabolaOf(patch);
     const Vector2d begin = curve.a, end = curve.At(patch.end);
     // The parabola is no farther from its chord than a quarter of c.
-    if (Distance(x, begin, end) > most + 0.25 * curve.c.lpNorm<1>()) continue;
+    if (Distance(x, begin, end) > nearest.most + 0.25 * curve.c.lpNorm<1>()) continue;
     const double tau = curve.FootOf(x, patch.begin, patch.end);
     // Over an axis of symmetry, rounding does not take a node that is held on the axis past the end.
     const bool mirrored = std::max(patch.nodes[0], patch.nodes[2]) >= NumPatches();
     const double rounding = mirrored ? tolerances::kEqual : 0.0;
     if (tau >= -rounding && tau <= patch.end + rounding) {
-      consider(i, (x - curve.At(tau)).norm(), false, false);
+      nearest.OfferFoot(i, (x - curve.At(tau)).norm());
       continue;
     }
-    const bool begins = !HasPatch(i - 1), ends = !HasPatch(i + 1);
-    consider(i, (x - begin).norm(), !begins, begins);
-    consider(i, (x - end).norm(), !ends, ends);
+    nearest.OfferEnd(i, (x - begin).norm(), HasPatch(i - 1));
+    nearest.OfferEnd(i, (x - end).norm(), HasPatch(i + 1));
   }
-  nearest.is_away = !Closed() && !nearest.is_end && IsAway(x, nearest.patch);
-  return nearest;
+  NearestFoot& foot = nearest.foot;
+  foot.is_away = !Closed() && !foot.is_end && IsAway(x, foot.patch);
+  return foot;
 }
 
+// Where x has its foot on a patch, which is prolonged.
+struct BoundaryAt::Foot {
+  Foot(const BoundaryAt& at, const Vector2d& x, int patch) : of(at.patches_.Patch(patch)) {
+    const Parabola curve = at.ParabolaOf(of);
+    tau = curve.FootOf(x, of.begin, of.end);
+    first = curve.b + 2.0 * tau * curve.c;
+    second = 2.0 * curve.c;
+    away = x - curve.At(tau);
+  }
+
+  SplinePatch of;
+  double tau;
+  Vector2d first, second, away;  // y', y'', x - y
+};
+
 bool BoundaryAt::IsAway(const Vector2d& x, int patch) const {
-  const SplinePatch of = patches_.Patch(patch);
-  const Parabola curve = ParabolaOf(of);
-  const double tau = curve.FootOf(x, of.begin, of.end);
-  const Vector2d first = curve.b + 2.0 * tau * curve.c, away = x - curve.At(tau);
-  const double edge = first.norm(), radius = boundary_.Radius();
-  const double behind = radius + (first.y() * away.x() - first.x() * away.y()) / edge;
+  const Foot foot(*this, x, patch);
+  const double edge = foot.first.norm(), radius = boundary_.Radius();
+  const double behind = radius + Cross(foot.away, foot.first) / edge;
   return behind > DepthBehind(radius, edge) && !boundary_.InSolid(x, u_);
 }
 
 Projection BoundaryAt::Project(const Vector2d& x, int patch) const {
-  const SplinePatch of = patches_.Patch(patch);
-  const Parabola curve = ParabolaOf(of);
-  const double tau = curve.FootOf(x, of.begin, of.end);
-  const Vector2d first = curve.b + 2.0 * tau * curve.c, second = 2.0 * curve.c;
-  const double speed = first.norm();
+  const Foot foot(*this, x, patch);
+  const double speed = foot.first.norm();
   Projection at;
-  at.normal = Vector2d(-first.y(), first.x()) / speed;
-  at.gap = (x - curve.At(tau)).dot(at.normal) - boundary_.Radius();
-  at.xi = boundary_.LengthPerKnot() * (of.knot + tau);
-  at.curvature = (first.x() * second.y() - first.y() * second.x()) / (speed * speed * speed);
+  at.normal = LeftOf(foot.first) / speed;
+  at.gap = foot.away.dot(at.normal) - boundary_.Radius();
+  at.xi = boundary_.LengthPerKnot() * (foot.of.knot + foot.tau);
+  at.curvature = Cross(foot.first, foot.second) / (speed * speed * speed);
   return at;
 }
 
 Vector2d BoundaryAt::PointAt(double xi) const {
   const double knot = xi / boundary_.LengthPerKnot();
   const SplinePatch of = boundary_.Spline().Patch(static_cast<int>(std::floor(knot + 0.5)));
-  const Parabola curve = ParabolaOf(of);
-  return curve.At(knot - of.knot);
+  return ParabolaOf(of).At(knot - of.knot);
 }
 
 }  // namespace contact_path

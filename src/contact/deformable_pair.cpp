@@ -4,68 +4,111 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <unsupported/Eigen/AutoDiff>
 #include <utility>
 
-#include "contact/spline_contact.h"
-#include "contact_path/contact/contact_pair.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-using spline_contact::Along;
-using spline_contact::ByPlaces;
-using spline_contact::Constant;
-using spline_contact::Place;
-using spline_contact::Places;
-using spline_contact::TwiceAlong;
-using spline_contact::TwiceByPlaces;
-using spline_contact::Values;
+// Gap, knot and slip of a node beside a patch of a spline, in numbers that carry their derivatives along.
+
+// x and y of the node, then of the control nodes; and whatever there is of each of these.
+using Place = Eigen::Matrix<double, 8, 1>;
+template <typename T>
+using Places = std::array<T, Place::SizeAtCompileTime>;
+
+// Numbers that carry derivatives along: by all places, the same twice, and twice along one curve.
+using ByPlaces = Eigen::AutoDiffScalar<Place>;
+using TwiceByPlaces = Eigen::AutoDiffScalar<Eigen::Matrix<ByPlaces, Place::SizeAtCompileTime, 1>>;
+using Along = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
+using TwiceAlong = Eigen::AutoDiffScalar<Eigen::Matrix<Along, 1, 1>>;
+
+template <typename T>
+T Constant(double value) {
+  return T(typename T::Scalar(value));
+}
+
+template <typename T>
+struct Plane {
+  T x, y;
+};
+
+template <typename T>
+T Dot(const Plane<T>& a, const Plane<T>& b) {
+  return T(a.x * b.x + a.y * b.y);
+}
+
+// Along a parabola from one foot: where the node is, and what follows.
+template <typename T>
+struct Foot {
+  // tau: of the foot, or near it.
+  Foot(const SplinePatch& patch, const Places<T>& z, const T& tau) {
+    second = {Constant<T>(0.0), Constant<T>(0.0)};
+    first = second;
+    away = {z[0], z[1]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      const T constant = Constant<T>(patch.weights(row, 0)), linear = Constant<T>(patch.weights(row, 1)),
+              square = Constant<T>(patch.weights(row, 2)), twice = Constant<T>(2.0 * patch.weights(row, 2));
+      const Plane<T> at = {z[2 * k + 2], z[2 * k + 3]};
+      weights[k] = T(T(T(square * tau) + linear) * tau) + constant;
+      slopes[k] = T(twice * tau) + linear;
+      away = {T(away.x - weights[k] * at.x), T(away.y - weights[k] * at.y)};
+      first = {T(first.x + slopes[k] * at.x), T(first.y + slopes[k] * at.y)};
+      second = {T(second.x + twice * at.x), T(second.y + twice * at.y)};
+    }
+  }
+  // Minus the derivative of away . first by tau.
+  T Bend() const { return T(Dot(first, first) - Dot(away, second)); }
+
+  std::array<T, 3> weights, slopes;  // N_k and N_k'
+  Plane<T> away, first, second;      // p, y', y''
+};
+
+// Gap without the radius, knot from the begin of the patch, slip per knot, and gradients of the first two by the
+// places, all of them to `order` derivatives.
+template <typename T>
+struct Values {
+  Values(const SplinePatch& patch, const Places<T>& z, double foot, double radius, int order) {
+    // Each step of Newton's method from the foot doubles the order to which derivatives are right.
+    knot = Constant<T>(foot);
+    for (int i = 0; i < order; ++i) {
+      const Foot<T> at(patch, z, knot);
+      knot = T(knot + T(Dot(at.away, at.first)) / at.Bend());
+    }
+    const Foot<T> at(patch, z, knot);
+    using std::sqrt;
+    const T square = Dot(at.first, at.first), speed = T(sqrt(square)), bend = at.Bend();
+    const Plane<T> normal = {T(Constant<T>(0.0) - at.first.y) / speed, T(at.first.x / speed)};
+    gap = Dot(at.away, normal);
+    const T cross = T(at.first.x * at.second.y - at.first.y * at.second.x);
+    slip = T(speed - T(Constant<T>(radius) * cross) / square);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const T &n = axis == 0 ? normal.x : normal.y, &first = axis == 0 ? at.first.x : at.first.y,
+              &away = axis == 0 ? at.away.x : at.away.y;
+      gap_gradient[axis] = n;
+      knot_gradient[axis] = T(first / bend);
+      for (std::size_t k = 0; k < 3; ++k) {
+        gap_gradient[2 * k + 2 + axis] = T(Constant<T>(0.0) - at.weights[k] * n);
+        knot_gradient[2 * k + 2 + axis] = T(T(at.slopes[k] * away - at.weights[k] * first) / bend);
+      }
+    }
+  }
+
+  T gap, knot, slip;
+  Places<T> gap_gradient, knot_gradient;
+};
+
+// Of the force, what belongs to these gradients of the gap and of the knot: c grad xi is the slip per knot times the
+// gradient of the knot.
+template <typename T>
+T ForceOf(const PortReals& forces, const T& gap, const T& slip, const T& knot) {
+  return T(Constant<T>(forces[kNormal]) * gap) + T(Constant<T>(forces[kTangent]) * T(slip * knot));
+}
 
 }  // namespace
-
-// Where the node and the control nodes of a patch are, and the unknowns among their places.
-struct DeformablePair::Stencil {
-  Stencil(const DeformablePair& pair, const Eigen::VectorXd& u, int patch_number)
-      : boundary(*pair.boundary_), patch(pair.patches_.Patch(patch_number)) {
-    const std::array<Eigen::Vector2d, 3> places = boundary.Places(patch, u);
-    const Eigen::Vector2d x = pair.node_.At(u);
-    z << x, places[0], places[1], places[2];
-    foot = Parabola(patch, places).FootOf(x, patch.begin, patch.end);
-  }
-
-  // Values with derivatives by the places.
-  Values<ByPlaces> ByAllPlaces() const {
-    Places<ByPlaces> variables;
-    for (int k = 0; k < Place::SizeAtCompileTime; ++k)
-      variables[static_cast<std::size_t>(k)] = ByPlaces(z[k], Place::SizeAtCompileTime, k);
-    return {patch, variables, foot, boundary.Radius(), 1};
-  }
-  Values<TwiceByPlaces> TwiceByAllPlaces() const {
-    Places<TwiceByPlaces> variables;
-    for (int k = 0; k < Place::SizeAtCompileTime; ++k)
-      variables[static_cast<std::size_t>(k)] =
-          TwiceByPlaces(ByPlaces(z[k], Place::SizeAtCompileTime, k), Place::SizeAtCompileTime, k);
-    return {patch, variables, foot, boundary.Radius(), 2};
-  }
-  // Along z + h first + h^2 / 2 second.
-  Values<TwiceAlong> TwiceAlongCurve(const Place& first, const Place& second) const {
-    const auto along = [](double value, double slope) { return Along(value, Eigen::Matrix<double, 1, 1>(slope)); };
-    Places<TwiceAlong> variables;
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      Eigen::Matrix<Along, 1, 1> slope;
-      slope[0] = along(first[i], second[i]);
-      variables[k] = TwiceAlong(along(z[i], first[i]), slope);
-    }
-    return {patch, variables, foot, boundary.Radius(), 2};
-  }
-
-  const DeformableBoundary& boundary;
-  SplinePatch patch;
-  Place z;
-  double foot;
-};
 
 // Places among the unknowns of a pair on a patch.
 struct DeformablePair::Columns {
@@ -118,6 +161,49 @@ struct DeformablePair::Columns {
   Places<double> sign{};      // by place, of the dof in it: an image has the dofs of its node
 };
 
+// Where the node and the control nodes of a patch are, and the unknowns among their places.
+struct DeformablePair::Stencil {
+  Stencil(const DeformablePair& pair, const Eigen::VectorXd& u, double s, int patch_number)
+      : radius(pair.boundary_->Radius()),
+        patch(pair.patches_.Patch(pair.KnownPatch(u, s, patch_number))),
+        columns(pair, patch) {
+    const std::array<Eigen::Vector2d, 3> places = pair.boundary_->Places(patch, u);
+    const Eigen::Vector2d x = pair.node_.At(u);
+    z << x, places[0], places[1], places[2];
+    foot = Parabola(patch, places).FootOf(x, patch.begin, patch.end);
+  }
+
+  // variable(k): of the place k.
+  template <typename T, typename Variable>
+  Values<T> ValuesOf(int order, Variable variable) const {
+    Places<T> variables;
+    for (int k = 0; k < Place::SizeAtCompileTime; ++k) variables[static_cast<std::size_t>(k)] = variable(k);
+    return {patch, variables, foot, radius, order};
+  }
+  // With derivatives by the places.
+  ByPlaces Variable(int k) const { return {z[k], Place::SizeAtCompileTime, k}; }
+  Values<ByPlaces> ByAllPlaces() const {
+    return ValuesOf<ByPlaces>(1, [this](int k) { return Variable(k); });
+  }
+  Values<TwiceByPlaces> TwiceByAllPlaces() const {
+    return ValuesOf<TwiceByPlaces>(2,
+                                   [this](int k) { return TwiceByPlaces(Variable(k), Place::SizeAtCompileTime, k); });
+  }
+  // Along z + h first + h^2 / 2 second.
+  Values<TwiceAlong> TwiceAlongCurve(const Place& first, const Place& second) const {
+    const auto along = [](double value, double slope) { return Along(value, Eigen::Matrix<double, 1, 1>(slope)); };
+    return ValuesOf<TwiceAlong>(2, [&](int k) {
+      return TwiceAlong(along(z[k], first[k]), Eigen::Matrix<Along, 1, 1>(along(first[k], second[k])));
+    });
+  }
+
+  double radius;
+  SplinePatch patch;
+  Columns columns;
+  Place z;
+  double foot;
+};
+
 DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
                                const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds,
                                const BroughtOn& overlap)
@@ -152,22 +238,22 @@ LawDofs DeformablePair::Dofs(int patch) const { return Columns(*this, patches_.P
 
 void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,
                               PortsAt* ports) const {
-  const Stencil stencil(*this, u, KnownPatch(u, s, patch));
-  const Columns columns(*this, stencil.patch);
+  const Stencil stencil(*this, u, s, patch);
+  const Columns& columns = stencil.columns;
   const Values<ByPlaces> at = stencil.ByAllPlaces();
   const double length = boundary_->LengthPerKnot();
+  const auto gather = [&](const Places<ByPlaces>& gradient) {
+    Place values;
+    for (std::size_t k = 0; k < gradient.size(); ++k) values[static_cast<Eigen::Index>(k)] = gradient[k].value();
+    return columns.Gather(values);
+  };
   PortAt &gap = (*ports)[kNormal], &xi = (*ports)[kTangent];
   ports->dofs = columns.dofs;
-  gap.motion = at.gap.value() - boundary_->Radius();
+  gap.motion = at.gap.value() - stencil.radius;
   xi.motion = length * (stencil.patch.knot + stencil.foot) - reference[kTangent];
-  Place gap_gradient, knot_gradient;
-  for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
-    gap_gradient[static_cast<Eigen::Index>(k)] = at.gap_gradient[k].value();
-    knot_gradient[static_cast<Eigen::Index>(k)] = at.knot_gradient[k].value();
-  }
-  gap.gradient = columns.Gather(gap_gradient);
+  gap.gradient = gather(at.gap_gradient);
   ToGap(s, &gap);
-  xi.gradient = length * columns.Gather(knot_gradient);
+  xi.gradient = length * gather(at.knot_gradient);
   gap.hessian = columns.GatherRows([&](std::size_t k) { return at.gap_gradient[k].derivatives(); });
   xi.hessian = length * columns.GatherRows([&](std::size_t k) { return at.knot_gradient[k].derivatives(); });
   xi.factor = at.slip.value() / length;
@@ -182,10 +268,6 @@ NearestFoot DeformablePair::Nearest(const Eigen::VectorXd& u, double s) const {
   NearestFoot nearest = BoundaryAtPlaces(u).Nearest(node_.At(u));
   nearest.distance = GapAt(s, nearest.distance - boundary_->Radius());
   return nearest;
-}
-
-int DeformablePair::PatchAt(const Eigen::VectorXd& u, double /*s*/) const {
-  return PatchBeside(BoundaryAtPlaces(u), node_.At(u));
 }
 
 int DeformablePair::PatchAfter(const Eigen::VectorXd& u, double /*s*/, int from) const {
@@ -223,48 +305,38 @@ bool DeformablePair::Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& af
 
 void DeformablePair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
                                   const LawVector& weights, LawMatrix* hessian) const {
-  const Stencil stencil(*this, u, KnownPatch(u, s, patch));
-  const Columns columns(*this, stencil.patch);
+  const Stencil stencil(*this, u, s, patch);
   const Values<TwiceByPlaces> at = stencil.TwiceByAllPlaces();
-  const Place by_place = columns.Scatter(weights);
+  const Place by_place = stencil.columns.Scatter(weights);
   TwiceByPlaces along_gap = Constant<TwiceByPlaces>(0.0), along_knot = along_gap;
   for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
     const TwiceByPlaces weight = Constant<TwiceByPlaces>(by_place[static_cast<Eigen::Index>(k)]);
     along_gap = TwiceByPlaces(along_gap + weight * at.gap_gradient[k]);
     along_knot = TwiceByPlaces(along_knot + weight * at.knot_gradient[k]);
   }
-  // c grad xi is the slip per knot times the gradient of the knot.
-  const TwiceByPlaces force =
-      TwiceByPlaces(Constant<TwiceByPlaces>(forces[kNormal]) * along_gap) +
-      TwiceByPlaces(Constant<TwiceByPlaces>(forces[kTangent]) * TwiceByPlaces(at.slip * along_knot));
-  *hessian = columns.GatherRows(
+  const TwiceByPlaces force = ForceOf(forces, along_gap, at.slip, along_knot);
+  *hessian = stencil.columns.GatherRows(
       [&](std::size_t k) { return force.derivatives()[static_cast<Eigen::Index>(k)].derivatives(); });
 }
 
 LawVector DeformablePair::SecondDirectional(const Eigen::VectorXd& u, double s, int patch, const PortReals& forces,
                                             const LawVector& direction) const {
-  const Stencil stencil(*this, u, KnownPatch(u, s, patch));
-  const Columns columns(*this, stencil.patch);
-  const Values<TwiceAlong> at = stencil.TwiceAlongCurve(columns.Scatter(direction), Place::Zero());
+  const Stencil stencil(*this, u, s, patch);
+  const Values<TwiceAlong> at = stencil.TwiceAlongCurve(stencil.columns.Scatter(direction), Place::Zero());
   Place second;
-  for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
-    const TwiceAlong force =
-        TwiceAlong(Constant<TwiceAlong>(forces[kNormal]) * at.gap_gradient[k]) +
-        TwiceAlong(Constant<TwiceAlong>(forces[kTangent]) * TwiceAlong(at.slip * at.knot_gradient[k]));
-    second[static_cast<Eigen::Index>(k)] = force.derivatives()[0].derivatives()[0];
-  }
-  return columns.Gather(second);
+  for (std::size_t k = 0; k < at.gap_gradient.size(); ++k)
+    second[static_cast<Eigen::Index>(k)] =
+        ForceOf(forces, at.gap_gradient[k], at.slip, at.knot_gradient[k]).derivatives()[0].derivatives()[0];
+  return stencil.columns.Gather(second);
 }
 
 Eigen::Vector3d DeformablePair::FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
                                             const LawVector& first, const LawVector& second) const {
   if (port == kNormal) return Law::FactorAlong(port, u, s, patch, first, second);
-  const Stencil stencil(*this, u, KnownPatch(u, s, patch));
-  const Columns columns(*this, stencil.patch);
-  const Values<TwiceAlong> at = stencil.TwiceAlongCurve(columns.Scatter(first), columns.Scatter(second));
-  const Eigen::Vector3d slip(at.slip.value().value(), at.slip.derivatives()[0].value(),
-                             at.slip.derivatives()[0].derivatives()[0]);
-  return slip / boundary_->LengthPerKnot();
+  const Stencil stencil(*this, u, s, patch);
+  const TwiceAlong slip = stencil.TwiceAlongCurve(stencil.columns.Scatter(first), stencil.columns.Scatter(second)).slip;
+  const Along& change = slip.derivatives()[0];
+  return Eigen::Vector3d(slip.value().value(), change.value(), change.derivatives()[0]) / boundary_->LengthPerKnot();
 }
 
 }  // namespace contact_path

@@ -148,10 +148,6 @@ NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
   return nearest;
 }
 
-int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {
-  return HasPatches() ? PatchBeside(*surface_, place_.At(u, s)) : 0;
-}
-
 int RigidPair::PatchAfter(const Eigen::VectorXd& u, double s, int from) const {
   return HasPatches() ? PatchBeside(*surface_, place_.At(u, s), from) : 0;
 }

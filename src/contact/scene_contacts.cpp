@@ -104,12 +104,7 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       continue;
     }
     if (candidate.at_eye) {
-      const auto piece = [&](std::size_t end) -> const Tendon& {
-        const auto found = std::find_if(scene.tendons.begin(), scene.tendons.end(),
-                                        [&](const Tendon& of) { return of.slides[end] == candidate.node; });
-        return *found;
-      };
-      const Tendon &before = piece(1), &behind = piece(0);
+      const Tendon &before = PieceAtEye(scene, candidate.node, 1), &behind = PieceAtEye(scene, candidate.node, 0);
       TendonEye::Roller roller;
       if (const double rho = SignedRadius(before, 1); rho != 0.0)
         roller = {rho > 0.0 ? 1.0 : -1.0, before.wrapped[1] + behind.wrapped[0]};

@@ -52,11 +52,11 @@ Eigen::Index TendonEye::SlidEntry() const {
   return std::find(OwnDofs().begin(), OwnDofs().end(), slid_.dof) - OwnDofs().begin();
 }
 
-XiRange TendonEye::RangeOf(int /*patch*/) const {
-  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-}
-
 TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
+  // By (dx1, dy1, w1, a1, dx2, dy2, w2, a2) of the spans: from node to node, what is wound by drums and the arcs at the
+  // start, the length at rest.
+  constexpr int kLocals = 8;
+  using Gradient = Eigen::Matrix<double, kLocals, 1>;
   using Once = Eigen::AutoDiffScalar<Gradient>;
   using Twice = Eigen::AutoDiffScalar<Eigen::Matrix<Once, kLocals, 1>>;
   using std::atan2;
@@ -84,16 +84,6 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
   if (turn.value().value() < 0.0) turn = -turn;
   const Twice rounded = turn + log(Twice(exp(Twice(turn * (-2.0 / kStraight))) + 1.0)) * kStraight;
   const Twice share = tanh(Twice(rounded * (0.5 * friction_))) * (sum * (0.5 / before_.EA()) + 1.0);
-  const auto function_of = [](const Twice& of) {
-    Function function;
-    function.value = of.value().value();
-    for (int i = 0; i < kLocals; ++i) {
-      function.gradient[i] = of.derivatives()[i].value();
-      function.hessian.row(i) = of.derivatives()[i].derivatives().transpose();
-    }
-    return function;
-  };
-
   const LawDofs& dofs = OwnDofs();
   const auto size = static_cast<Eigen::Index>(dofs.size()) + 1;
   Eigen::Matrix<double, kLocals, Eigen::Dynamic, 0, kLocals, kMostLawDofs + 1> by_q(kLocals, size);
@@ -104,16 +94,19 @@ TendonEye::Place TendonEye::At(const Eigen::VectorXd& u, double s) const {
     by_q.row(row++) = span->WoundGradient(dofs).transpose();
     by_q.row(row++) = span->RestGradient(dofs).transpose();
   }
-  Place place{function_of(sum), function_of(share), {}, {}, {}, {}};
-  const auto by_place = [&](const Function& of, LawVector* gradient, LawMatrix* hessian) {
-    *gradient = by_q.transpose() * of.gradient;
-    *hessian = by_q.transpose() * of.hessian * by_q;
-    *hessian += Spread(before.span.Second(of.gradient.head<2>()), before_.Span().Dofs(), dofs);
-    *hessian += Spread(behind.span.Second(of.gradient.segment<2>(4)), behind_.Span().Dofs(), dofs);
+  const auto function_of = [&](const Twice& of) {
+    Gradient gradient;
+    Eigen::Matrix<double, kLocals, kLocals> hessian;
+    for (int i = 0; i < kLocals; ++i) {
+      gradient[i] = of.derivatives()[i].value();
+      hessian.row(i) = of.derivatives()[i].derivatives().transpose();
+    }
+    Function function{of.value().value(), by_q.transpose() * gradient, by_q.transpose() * hessian * by_q};
+    function.hessian += Spread(before.span.Second(gradient.head<2>()), before_.Span().Dofs(), dofs);
+    function.hessian += Spread(behind.span.Second(gradient.segment<2>(4)), behind_.Span().Dofs(), dofs);
+    return function;
   };
-  by_place(place.sum, &place.sum_gradient, &place.sum_hessian);
-  by_place(place.share, &place.share_gradient, &place.share_hessian);
-  return place;
+  return {function_of(sum), function_of(share)};
 }
 
 void TendonEye::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& reference,
@@ -123,15 +116,14 @@ void TendonEye::Evaluate(const Eigen::VectorXd& u, double s, int /*piece*/, cons
   ports->dofs = OwnDofs();
   PortAt &sum = (*ports)[kNormal], &slid = (*ports)[kTangent];
   sum.motion = -compliance_ * at.sum.value;
-  sum.gradient = -compliance_ * at.sum_gradient;
-  sum.hessian = -compliance_ * at.sum_hessian;
+  sum.gradient = -compliance_ * at.sum.gradient;
+  sum.hessian = -compliance_ * at.sum.hessian;
   sum.factor = 0.0;
   slid.motion = u[slid_.dof] - slid_.held - reference[kTangent];
-  slid.gradient = LawVector::Zero(size);
-  slid.gradient[SlidEntry()] = 1.0;
+  slid.gradient = LawVector::Unit(size, SlidEntry());
   slid.hessian = LawMatrix::Zero(size, size);
   slid.factor = at.share.value;
-  slid.factor_gradient = at.share_gradient;
+  slid.factor_gradient = at.share.gradient;
 }
 
 double TendonEye::Gap(const Eigen::VectorXd& u, double s, int /*piece*/) const {
@@ -146,22 +138,21 @@ double TendonEye::GapOnRecord(const Eigen::VectorXd& u, double s, int /*piece*/)
 
 void TendonEye::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
                              const LawVector& weights, LawMatrix* hessian) const {
-  *hessian = (weights[SlidEntry()] * forces[kTangent]) * At(u, s).share_hessian;
+  *hessian = (weights[SlidEntry()] * forces[kTangent]) * At(u, s).share.hessian;
 }
 
 LawVector TendonEye::SecondDirectional(const Eigen::VectorXd& u, double s, int /*piece*/, const PortReals& forces,
                                        const LawVector& direction) const {
   LawVector second = LawVector::Zero(direction.size());
-  second[SlidEntry()] = forces[kTangent] * direction.dot(At(u, s).share_hessian * direction);
+  second[SlidEntry()] = forces[kTangent] * direction.dot(At(u, s).share.hessian * direction);
   return second;
 }
 
 Eigen::Vector3d TendonEye::FactorAlong(std::size_t port, const Eigen::VectorXd& u, double s, int /*piece*/,
                                        const LawVector& first, const LawVector& second) const {
   if (port == kNormal) return Eigen::Vector3d::Zero();
-  const Place at = At(u, s);
-  return {at.share.value, at.share_gradient.dot(first),
-          first.dot(at.share_hessian * first) + at.share_gradient.dot(second)};
+  const Function share = At(u, s).share;
+  return {share.value, share.gradient.dot(first), first.dot(share.hessian * first) + share.gradient.dot(second)};
 }
 
 double TendonEye::Travel(std::size_t port, const Eigen::VectorXd& u, double s, int /*piece*/, const Eigen::VectorXd& du,

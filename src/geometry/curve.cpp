@@ -260,35 +260,22 @@ Projection Curve::Project(const Vector2d& x, int patch) const {
 NearestFoot Curve::Nearest(const Vector2d& x) const { return NearestFrom(x, -1); }
 
 NearestFoot Curve::NearestFrom(const Vector2d& x, int near) const {
-  NearestFoot nearest;
-  nearest.distance = std::numeric_limits<double>::infinity();
-  // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
-  double most = nearest.distance;
-  const auto consider = [&](std::size_t patch, double distance, bool is_joint, bool is_end) {
-    const double counted = is_joint ? (1.0 + tolerances::kActive) * distance : distance;
-    const int number = static_cast<int>(patch);
-    if (!(counted < most || (counted == most && number < nearest.patch))) return;  // in whatever order they are visited
-    most = counted;
-    nearest = {number, distance, is_end};
-  };
+  NearestOfPatches nearest;
   const auto visit = [&](std::size_t i) {
+    const auto patch = static_cast<int>(i);
     const CurvePiece& piece = *pieces_[i];
     const Projection at = piece.Project(x);
     const XiRange range = piece.Range();
-    if (at.xi >= range.begin && at.xi <= range.end) {
-      consider(i, std::abs(at.gap), false, false);
-      return;
-    }
+    if (at.xi >= range.begin && at.xi <= range.end) return nearest.OfferFoot(patch, std::abs(at.gap));
     // Also of a point that has no foot.
-    const bool first = !closed_ && i == 0, last = !closed_ && i + 1 == pieces_.size();
-    consider(i, (x - piece.PointAt(range.begin)).norm(), !first, first);
-    consider(i, (x - piece.PointAt(range.end)).norm(), !last, last);
+    nearest.OfferEnd(patch, (x - piece.PointAt(range.begin)).norm(), closed_ || i > 0);
+    nearest.OfferEnd(patch, (x - piece.PointAt(range.end)).norm(), closed_ || i + 1 < pieces_.size());
   };
   if (near < 0)
-    tree_.Search(x, &most, visit);
+    tree_.Search(x, &nearest.most, visit);
   else
-    tree_.SearchFrom(static_cast<std::size_t>(near), x, &most, visit);
-  return nearest;
+    tree_.SearchFrom(static_cast<std::size_t>(near), x, &nearest.most, visit);
+  return nearest.foot;
 }
 
 Vector2d Curve::PointAt(double xi) const {

@@ -96,13 +96,10 @@ Columns SolveCyclic(std::vector<double> diagonal, const std::vector<double>& bes
 // The pieces of a spline, at a distance.
 std::vector<CubicPiece> SplinePieces(const PlanePoints& points, bool closed, double distance) {
   const std::size_t n = points.size(), count = closed ? n : n - 1;
-  std::vector<double> lengths;   // of the intervals of the parameter
-  std::vector<Vector2d> slopes;  // mean derivatives on them
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vector2d edge = points[(i + 1) % n] - points[i];
-    lengths.push_back(std::hypot(edge.x(), edge.y()));
-    slopes.push_back(edge / lengths.back());
-  }
+  // Lengths of the intervals of the parameter, and mean derivatives on them.
+  const Edges edges(points, closed);
+  const std::vector<double>& lengths = edges.lengths;
+  const std::vector<Vector2d>& slopes = edges.directions;
   // Second derivatives at the points, from continuous first ones.
   Columns bends = Columns::Zero(static_cast<Eigen::Index>(n), 2);
   const std::size_t first = closed ? 0 : 1, equations = closed ? n : n - 2;

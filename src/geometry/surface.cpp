@@ -34,6 +34,18 @@ Eigen::Matrix2d Symmetric(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a * b.transpose() + b * a.transpose();
 }
 
+// In the first round.
+int PatchNearest(const Surface& surface, const Eigen::Vector2d& x) {
+  const NearestFoot nearest = surface.Nearest(x);
+  if (nearest.is_away) return surface.NumPatches() + 1;
+  if (!nearest.is_end) return nearest.patch;
+  const int before = nearest.patch - 1, after = nearest.patch + 1;
+  if (surface.HasPatch(after)) return before;
+  if (surface.HasPatch(before)) return after;
+  const XiRange range = surface.RangeOf(nearest.patch);
+  return surface.Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? before : after;
+}
+
 }  // namespace
 
 Eigen::Vector2d XiGradient(const Projection& at) {
@@ -71,20 +83,9 @@ Eigen::Matrix2d XiHessianChange(const Projection& at, const Eigen::Vector2d& v) 
          bend_change * d.t * d.t.transpose() + bend * Symmetric(change.t, d.t);
 }
 
-int PatchBeside(const Surface& surface, const Eigen::Vector2d& x) {
-  const NearestFoot nearest = surface.Nearest(x);
-  if (nearest.is_away) return surface.NumPatches() + 1;
-  if (!nearest.is_end) return nearest.patch;
-  const int before = nearest.patch - 1, after = nearest.patch + 1;
-  if (surface.HasPatch(after)) return before;
-  if (surface.HasPatch(before)) return after;
-  const XiRange range = surface.RangeOf(nearest.patch);
-  return surface.Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? before : after;
-}
-
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from) {
-  const int patch = PatchBeside(surface, x);
-  if (!surface.Closed() || patch == from) return patch;
+  const int patch = PatchNearest(surface, x);
+  if (!surface.Closed() || patch == from || from == kNearestPatch) return patch;
   const int round = surface.NumPatches();
   const double length = surface.RangeOf(round).begin - surface.RangeOf(0).begin;
   // By xi, and not by the numbers: of a circle, the patches before and after one are the same place.
@@ -109,8 +110,6 @@ double GapBeside(const Surface& surface, const Eigen::Vector2d& x, int patch) {
 HalfPlane::HalfPlane(const Eigen::Vector2d& point, const Eigen::Vector2d& normal)
     : normal_(normal / std::hypot(normal.x(), normal.y())),
       offset_(normal_.x() * point.x() + normal_.y() * point.y()) {}
-
-NearestFoot HalfPlane::Nearest(const Eigen::Vector2d& x) const { return {0, std::abs(Project(x, 0).gap), false}; }
 
 Projection HalfPlane::Project(const Eigen::Vector2d& x, int /*patch*/) const {
   Projection projection;

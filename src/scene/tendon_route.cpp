@@ -120,6 +120,11 @@ TendonRoute RouteIn(const Scene& scene, const SceneIndex& index, const Tendon& t
   return RouteOf(tendon, points);
 }
 
+const Tendon& PieceAtEye(const Scene& scene, const std::string& eye, std::size_t end) {
+  return *std::find_if(scene.tendons.begin(), scene.tendons.end(),
+                       [&](const Tendon& tendon) { return tendon.slides[end] == eye; });
+}
+
 std::vector<WrapLimit> WrapLimits(const Scene& scene, const SceneIndex& index) {
   std::vector<WrapLimit> limits;
   for (std::size_t k = 0; k < scene.tendons.size(); ++k) {
@@ -145,10 +150,9 @@ std::vector<WrapLimit> WrapLimits(const Scene& scene, const SceneIndex& index) {
       if (i > 0) limit.turns.push_back({-sense, k, i - 1});
       if (i < last) limit.turns.push_back({sense, k, i});
       if (slides && body.empty()) {
-        const auto next = std::find_if(scene.tendons.begin(), scene.tendons.end(),
-                                       [&](const Tendon& known) { return known.slides[0] == tendon.slides[1]; });
-        limit.start += next->wrapped[0];
-        limit.turns.push_back({sense, static_cast<std::size_t>(next - scene.tendons.begin()), 0});
+        const Tendon& next = PieceAtEye(scene, tendon.slides[1], 0);
+        limit.start += next.wrapped[0];
+        limit.turns.push_back({sense, static_cast<std::size_t>(&next - scene.tendons.data()), 0});
       } else if (!body.empty()) {
         if (slides) limit.kind = WrapLimit::Kind::kHauled;
         limit.of_body = i == 0 ? -sense : sense;

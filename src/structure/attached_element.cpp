@@ -82,60 +82,55 @@ PlacedElement AttachedElement::Wrap(PlacedElement placed,
 
 Eigen::VectorXd AttachedElement::Inner(const Eigen::VectorXd& z) const { return At(*this, z).inner; }
 
-void AttachedElement::Force(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> force) const {
-  const At at(*this, z);
-  Eigen::VectorXd inner_force(at.inner.size());
-  inner_->Force(at.inner, inner_force);
-  force = at.jacobian.transpose() * inner_force;
+Eigen::VectorXd AttachedElement::InnerForce(const At& at) const {
+  Eigen::VectorXd force(at.inner.size());
+  inner_->Force(at.inner, force);
+  return force;
 }
 
-Eigen::MatrixXd AttachedElement::Bend(const At& at, const Eigen::VectorXd& inner_force) const {
+Eigen::MatrixXd AttachedElement::Outer(const At& at, const Eigen::MatrixXd& tangent,
+                                       const Eigen::VectorXd& force) const {
+  // The gradients of the places change.
   Eigen::MatrixXd bend = Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols());
   for (std::size_t k = 0; k < attached_.size(); ++k)
-    Scatter(attached_[k].place.Dofs(), at.places[k].Second(inner_force.segment<2>(attached_[k].first_inner)), bend);
-  return bend;
+    Scatter(attached_[k].place.Dofs(), at.places[k].Second(force.segment<2>(attached_[k].first_inner)), bend);
+  return at.jacobian.transpose() * tangent * at.jacobian + bend;
 }
 
-void AttachedElement::Tangent(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+void AttachedElement::Force(const Values& z, Eigen::Ref<Eigen::VectorXd> force) const {
   const At at(*this, z);
-  Eigen::VectorXd inner_force(at.inner.size());
-  Eigen::MatrixXd inner(at.inner.size(), at.inner.size());
-  inner_->Force(at.inner, inner_force);
-  inner_->Tangent(at.inner, inner);
-  tangent = at.jacobian.transpose() * inner * at.jacobian + Bend(at, inner_force);
+  force = at.jacobian.transpose() * InnerForce(at);
 }
 
-void AttachedElement::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& z,
-                                   const Eigen::Ref<const Eigen::VectorXd>& from,
-                                   const Eigen::Ref<const Eigen::VectorXd>& to,
+void AttachedElement::Tangent(const Values& z, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+  const At at(*this, z);
+  Eigen::MatrixXd inner(at.inner.size(), at.inner.size());
+  inner_->Tangent(at.inner, inner);
+  tangent = Outer(at, inner, InnerForce(at));
+}
+
+void AttachedElement::MixedTangent(const Values& z, const Values& from, const Values& to,
                                    Eigen::Ref<Eigen::MatrixXd> tangent) const {
   const At at(*this, z);
-  Eigen::VectorXd inner_force(at.inner.size());
   Eigen::MatrixXd inner(at.inner.size(), at.inner.size());
-  inner_->Force(at.inner, inner_force);
   inner_->MixedTangent(at.inner, Inner(from), Inner(to), inner);
-  tangent = at.jacobian.transpose() * inner * at.jacobian + Bend(at, inner_force);
+  tangent = Outer(at, inner, InnerForce(at));
 }
 
-void AttachedElement::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& z,
-                                        const Eigen::Ref<const Eigen::VectorXd>& v,
+void AttachedElement::TangentDerivative(const Values& z, const Values& v,
                                         Eigen::Ref<Eigen::MatrixXd> derivative) const {
   const At at(*this, z);
   const Eigen::Index size = at.inner.size();
-  Eigen::VectorXd force(size);
   Eigen::MatrixXd tangent(size, size), change(size, size), jacobian_change = Eigen::MatrixXd::Zero(size, z.size());
-  const Eigen::VectorXd along = at.jacobian * v;
-  inner_->Force(at.inner, force);
+  const Eigen::VectorXd along = at.jacobian * v, force = InnerForce(at);
   inner_->Tangent(at.inner, tangent);
   inner_->TangentDerivative(at.inner, along, change);
-  const Eigen::VectorXd force_change = tangent * along;
-  derivative = at.jacobian.transpose() * change * at.jacobian + Bend(at, force_change);
+  derivative = Outer(at, change, tangent * along);
   for (std::size_t k = 0; k < attached_.size(); ++k) {
-    const Attached& attached = attached_[k];
-    const LawVector direction = LocalOf(attached.place.Dofs(), v, 0.0);
-    Scatter(attached.place.Dofs(), at.places[k].FirstChange(direction), attached.first_inner, &jacobian_change);
-    Scatter(attached.place.Dofs(), at.places[k].SecondChange(force.segment<2>(attached.first_inner), direction),
-            derivative);
+    const auto& [first, place] = attached_[k];
+    const LawVector direction = LocalOf(place.Dofs(), v, 0.0);
+    Scatter(place.Dofs(), at.places[k].FirstChange(direction), first, &jacobian_change);
+    Scatter(place.Dofs(), at.places[k].SecondChange(force.segment<2>(first), direction), derivative);
   }
   const Eigen::MatrixXd mixed = jacobian_change.transpose() * tangent * at.jacobian;
   derivative += mixed + mixed.transpose();

@@ -5,7 +5,7 @@
 namespace contact_path {
 namespace {
 
-Eigen::Vector2d Span(const Eigen::Ref<const Eigen::VectorXd>& x) { return x.segment<2>(2) - x.segment<2>(0); }
+Eigen::Vector2d Span(const Element::Values& x) { return x.segment<2>(2) - x.segment<2>(0); }
 
 // Blocks of a quantity that depends on the difference of the two nodes only.
 void Scatter(const Eigen::Matrix2d& block, Eigen::Ref<Eigen::MatrixXd> out) {
@@ -30,7 +30,7 @@ const std::vector<LocalDof>& BarElement::Dofs() const {
   return dofs;
 }
 
-double BarElement::Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+double BarElement::Energy(const Values& x) const {
   const double length = Span(x).norm(), stretch = length / rest_length_;
   if (Slack(length)) return 0.0;
   double strain = 0.0;
@@ -65,22 +65,20 @@ BarElement::EnergyDerivatives BarElement::Derivatives(double q) const {
   return {};
 }
 
-void BarElement::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const {
+void BarElement::Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const {
   const Eigen::Vector2d d = Span(x);
   const Eigen::Vector2d pull = 2.0 * Derivatives(d.squaredNorm()).first * d;
   force.segment<2>(0) = -pull;
   force.segment<2>(2) = pull;
 }
 
-void BarElement::Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+void BarElement::Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
   const Eigen::Vector2d d = Span(x);
   const EnergyDerivatives w = Derivatives(d.squaredNorm());
   Scatter(2.0 * w.first * Eigen::Matrix2d::Identity() + 4.0 * w.second * d * d.transpose(), tangent);
 }
 
-void BarElement::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                   const Eigen::Ref<const Eigen::VectorXd>& v,
-                                   Eigen::Ref<Eigen::MatrixXd> derivative) const {
+void BarElement::TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const {
   const Eigen::Vector2d d = Span(x);
   const Eigen::Vector2d e = Span(v);
   const double along = d.dot(e);

@@ -1,6 +1,5 @@
 #include "contact_path/structure/beam.h"
 
-#include <array>
 #include <cmath>
 
 namespace contact_path {
@@ -30,23 +29,19 @@ struct BeamSegment::Chord {
   explicit Chord(const Eigen::Vector2d& span)
       : length(span.norm()), along(span / length), across(-along[1], along[0]) {}
 
+  Eigen::Matrix2d Mixed() const {
+    const Eigen::Matrix2d mixed = along * across.transpose();
+    return mixed + mixed.transpose();
+  }
   // d2 l, and d3 l along v.
   Eigen::Matrix2d LengthHessian() const { return across * across.transpose() / length; }
   Eigen::Matrix2d LengthThird(const Eigen::Vector2d& v) const {
-    const Eigen::Matrix2d mixed = along * across.transpose();
-    return -(across.dot(v) * (mixed + mixed.transpose()) + along.dot(v) * across * across.transpose()) /
-           (length * length);
+    return -(across.dot(v) * Mixed() + along.dot(v) * across * across.transpose()) / (length * length);
   }
   // d2 beta, and d3 beta along v.
-  Eigen::Matrix2d DirectionHessian() const {
-    const Eigen::Matrix2d mixed = along * across.transpose();
-    return -(mixed + mixed.transpose()) / (length * length);
-  }
+  Eigen::Matrix2d DirectionHessian() const { return -Mixed() / (length * length); }
   Eigen::Matrix2d DirectionThird(const Eigen::Vector2d& v) const {
-    const Eigen::Matrix2d mixed = along * across.transpose();
-    return 2.0 *
-           (along.dot(v) * (mixed + mixed.transpose()) -
-            across.dot(v) * (across * across.transpose() - along * along.transpose())) /
+    return 2.0 * (along.dot(v) * Mixed() - across.dot(v) * (across * across.transpose() - along * along.transpose())) /
            (length * length * length);
   }
 
@@ -54,141 +49,117 @@ struct BeamSegment::Chord {
   Eigen::Vector2d along, across;  // unit vectors; across is 90 degrees to the left
 };
 
+struct BeamSegment::At {
+  At(const BeamSegment& of, const Values& x) : At(of, of.CoordinatesOf(x)) {}
+  At(const BeamSegment& of, const Coordinates& at) : chord(at.head<2>()) {
+    const double first = of.hinged_first_ ? at[3] : at[2], second = of.hinged_second_ ? at[2] : at[3];
+    const double mean = 0.5 * (first + second);
+    const double turned =
+        std::atan2(of.along_[0] * chord.along[1] - of.along_[1] * chord.along[0], of.along_.dot(chord.along)) - mean;
+    const double beta = mean + turned - 2.0 * M_PI * std::round(turned / (2.0 * M_PI));
+    rotations << (of.hinged_first_ ? 0.0 : first - beta), (of.hinged_second_ ? 0.0 : second - beta);
+    forces << of.EA_ * (chord.length - of.length_) / of.length_, of.stiffnesses_.bottomRightCorner<2, 2>() * rotations;
+    const Eigen::Vector2d turn = chord.across / chord.length;  // of beta
+    gradients.col(0) << chord.along, 0.0, 0.0;
+    gradients.col(1) << -turn, 1.0, 0.0;
+    gradients.col(2) << -turn, 0.0, 1.0;
+  }
+
+  Chord chord;
+  Eigen::Vector2d rotations;              // a and b; 0 at a hinge
+  Eigen::Vector3d forces;                 // derivatives of W by l, a and b
+  Eigen::Matrix<double, 4, 3> gradients;  // of l, a and b, one in each column
+};
+
 BeamSegment::BeamSegment(const Stiffness& stiffness, const Eigen::Vector2d& chord, bool hinged_first,
                          bool hinged_second)
     : EA_(stiffness.EA),
       length_(chord.norm()),
-      bending_(BendingStiffness(stiffness, length_, hinged_first, hinged_second)),
+      stiffnesses_(Eigen::Matrix3d::Zero()),
       along_(Chord(chord).along),
       hinged_first_(hinged_first),
       hinged_second_(hinged_second) {
+  stiffnesses_(0, 0) = EA_ / length_;
+  stiffnesses_.bottomRightCorner<2, 2>() = BendingStiffness(stiffness, length_, hinged_first, hinged_second);
   for (const int node : {0, 1}) {
-    for (int component = 0; component < kPositionComponents; ++component)
+    for (int component = 0; component < kPositionComponents; ++component) {
       dofs_.push_back({node, Field::kPosition, component});
-    if (!(node == 0 ? hinged_first : hinged_second)) dofs_.push_back({node, Field::kRotation, 0});
+      shares_.push_back({component, node == 0 ? -1.0 : 1.0});
+    }
+    if (node == 0 ? hinged_first : hinged_second) continue;
+    dofs_.push_back({node, Field::kRotation, 0});
+    shares_.push_back({kPositionComponents + node, 1.0});
   }
 }
 
-BeamSegment::Coordinates BeamSegment::CoordinatesOf(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-  const Eigen::Index second = hinged_first_ ? 2 : 3;
-  Coordinates at;
-  at << x.segment<2>(second) - x.head<2>(), hinged_first_ ? 0.0 : x[2], hinged_second_ ? 0.0 : x[second + 2];
+BeamSegment::Coordinates BeamSegment::CoordinatesOf(const Values& x) const {
+  Coordinates at = Coordinates::Zero();
+  for (std::size_t i = 0; i < shares_.size(); ++i)
+    at[shares_[i].coordinate] += shares_[i].sign * x[static_cast<Eigen::Index>(i)];
   return at;
 }
 
-// a and b; 0 at a hinge.
-Eigen::Vector2d BeamSegment::EndRotations(const Chord& chord, const Coordinates& at) const {
-  const double first = hinged_first_ ? at[3] : at[2], second = hinged_second_ ? at[2] : at[3];
-  const double mean = 0.5 * (first + second);
-  const double turned =
-      std::atan2(along_[0] * chord.along[1] - along_[1] * chord.along[0], along_.dot(chord.along)) - mean;
-  const double beta = mean + turned - 2.0 * M_PI * std::round(turned / (2.0 * M_PI));
-  return {hinged_first_ ? 0.0 : first - beta, hinged_second_ ? 0.0 : second - beta};
+double BeamSegment::Energy(const Values& x) const {
+  const At at(*this, x);
+  const double stretch = at.chord.length - length_;
+  return 0.5 *
+         (EA_ / length_ * stretch * stretch + at.rotations.dot(stiffnesses_.bottomRightCorner<2, 2>() * at.rotations));
 }
 
-Eigen::Matrix<double, 4, 3> BeamSegment::Gradients(const Chord& chord) const {
-  const Eigen::Vector2d turn = chord.across / chord.length;  // of beta
-  Eigen::Matrix<double, 4, 3> gradients = Eigen::Matrix<double, 4, 3>::Zero();
-  gradients.col(0).head<2>() = chord.along;
-  gradients.col(1) << -turn, 1.0, 0.0;
-  gradients.col(2) << -turn, 0.0, 1.0;
-  return gradients;
+void BeamSegment::Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const {
+  const At at(*this, x);
+  const Coordinates of = at.gradients * at.forces;
+  for (std::size_t i = 0; i < shares_.size(); ++i)
+    force[static_cast<Eigen::Index>(i)] = shares_[i].sign * of[shares_[i].coordinate];
 }
 
-Eigen::Vector3d BeamSegment::Forces(const Chord& chord, const Coordinates& at) const {
-  Eigen::Vector3d forces;
-  forces << EA_ * (chord.length - length_) / length_, bending_ * EndRotations(chord, at);
-  return forces;
+void BeamSegment::Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+  const At at(*this, x);
+  Spread(TangentOf(at, at.forces), tangent);
 }
 
-Eigen::Matrix3d BeamSegment::Stiffnesses() const {
-  Eigen::Matrix3d stiffnesses = Eigen::Matrix3d::Zero();
-  stiffnesses(0, 0) = EA_ / length_;
-  stiffnesses.bottomRightCorner<2, 2>() = bending_;
-  return stiffnesses;
-}
-
-double BeamSegment::Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-  const Coordinates at = CoordinatesOf(x);
-  const Chord chord(at.head<2>());
-  const Eigen::Vector2d rotations = EndRotations(chord, at);
-  const double stretch = chord.length - length_;
-  return 0.5 * (EA_ / length_ * stretch * stretch + rotations.dot(bending_ * rotations));
-}
-
-void BeamSegment::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const {
-  const Coordinates at = CoordinatesOf(x);
-  const Chord chord(at.head<2>());
-  const Coordinates of = Gradients(chord) * Forces(chord, at);
-  const Eigen::Index second = hinged_first_ ? 2 : 3;
-  force.head<2>() = -of.head<2>();
-  force.segment<2>(second) = of.head<2>();
-  if (!hinged_first_) force[2] = of[2];
-  if (!hinged_second_) force[second + 2] = of[3];
-}
-
-void BeamSegment::Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
-  const Coordinates at = CoordinatesOf(x);
-  const Chord chord(at.head<2>());
-  Spread(TangentOf(chord, Forces(chord, at)), tangent);
-}
-
-void BeamSegment::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x,
-                               const Eigen::Ref<const Eigen::VectorXd>& from,
-                               const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::Ref<Eigen::MatrixXd> tangent) const {
-  const Coordinates at = CoordinatesOf(x), before = CoordinatesOf(from);
-  const Chord chord(at.head<2>()), last(before.head<2>());
+void BeamSegment::MixedTangent(const Values& x, const Values& from, const Values& to,
+                               Eigen::Ref<Eigen::MatrixXd> tangent) const {
+  const At at(*this, x);
+  const Coordinates before = CoordinatesOf(from);
+  const Chord last(before.head<2>());
   const Eigen::Vector2d change = (CoordinatesOf(to) - before).head<2>();
-  Eigen::Vector3d forces = Forces(chord, at);
+  Eigen::Vector3d forces = at.forces;
   forces[0] = EA_ * (last.length - length_ + last.along.dot(change)) / length_;
-  Spread(TangentOf(chord, forces), tangent);
+  Spread(TangentOf(at, forces), tangent);
 }
 
-BeamSegment::Square BeamSegment::TangentOf(const Chord& chord, const Eigen::Vector3d& forces) const {
-  const Eigen::Matrix<double, 4, 3> gradients = Gradients(chord);
-  const Square product = gradients * Stiffnesses() * gradients.transpose();
+BeamSegment::Square BeamSegment::TangentOf(const At& at, const Eigen::Vector3d& forces) const {
+  const Square product = at.gradients * stiffnesses_ * at.gradients.transpose();
   Square square = 0.5 * (product + product.transpose());  // symmetric to the last digit
   square.topLeftCorner<2, 2>() +=
-      forces[0] * chord.LengthHessian() - (forces[1] + forces[2]) * chord.DirectionHessian();
+      forces[0] * at.chord.LengthHessian() - (forces[1] + forces[2]) * at.chord.DirectionHessian();
   return square;
 }
 
-void BeamSegment::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                    const Eigen::Ref<const Eigen::VectorXd>& v,
-                                    Eigen::Ref<Eigen::MatrixXd> derivative) const {
-  const Coordinates at = CoordinatesOf(x), along = CoordinatesOf(v);
+void BeamSegment::TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const {
+  const At at(*this, x);
+  const Coordinates along = CoordinatesOf(v);
   const Eigen::Vector2d span = along.head<2>();
-  const Chord chord(at.head<2>());
-  const Eigen::Matrix<double, 4, 3> gradients = Gradients(chord);
-  const Eigen::Vector3d forces = Forces(chord, at);
-  const Eigen::Vector3d rates = Stiffnesses() * (gradients.transpose() * along);
-  const Eigen::Matrix2d of_length = chord.LengthHessian(), of_direction = chord.DirectionHessian();
+  const Eigen::Vector3d rates = stiffnesses_ * (at.gradients.transpose() * along);
+  const Eigen::Matrix2d of_length = at.chord.LengthHessian(), of_direction = at.chord.DirectionHessian();
   // Change of the gradients along v.
   Eigen::Matrix<double, 4, 3> change = Eigen::Matrix<double, 4, 3>::Zero();
   change.col(0).head<2>() = of_length * span;
   change.col(1).head<2>() = change.col(2).head<2>() = -of_direction * span;
-  const Square product = change * Stiffnesses() * gradients.transpose();
+  const Square product = change * stiffnesses_ * at.gradients.transpose();
   Square square = product + product.transpose();
-  square.topLeftCorner<2, 2>() += rates[0] * of_length + forces[0] * chord.LengthThird(span) -
+  square.topLeftCorner<2, 2>() += rates[0] * of_length + at.forces[0] * at.chord.LengthThird(span) -
                                   (rates[1] + rates[2]) * of_direction -
-                                  (forces[1] + forces[2]) * chord.DirectionThird(span);
+                                  (at.forces[1] + at.forces[2]) * at.chord.DirectionThird(span);
   Spread(square, derivative);
 }
 
 void BeamSegment::Spread(const Square& of_coordinates, Eigen::Ref<Eigen::MatrixXd> out) const {
-  // Of each local dof: its coordinate, and the sign with which it enters.
-  const std::size_t size = dofs_.size();
-  std::array<Eigen::Index, 6> coordinate{};
-  std::array<double, 6> sign{};
-  for (std::size_t i = 0; i < size; ++i) {
-    const bool rotation = dofs_[i].field == Field::kRotation;
-    coordinate[i] = rotation ? 2 + dofs_[i].node : dofs_[i].component;
-    sign[i] = rotation || dofs_[i].node == 1 ? 1.0 : -1.0;
-  }
-  for (std::size_t j = 0; j < size; ++j)
-    for (std::size_t i = 0; i < size; ++i)
+  for (std::size_t j = 0; j < shares_.size(); ++j)
+    for (std::size_t i = 0; i < shares_.size(); ++i)
       out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          sign[i] * sign[j] * of_coordinates(coordinate[i], coordinate[j]);
+          shares_[i].sign * shares_[j].sign * of_coordinates(shares_[i].coordinate, shares_[j].coordinate);
 }
 
 }  // namespace contact_path

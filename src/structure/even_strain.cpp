@@ -67,11 +67,11 @@ void EvenStrain::Derive(const Eigen::VectorXd& x, const Eigen::VectorXd& v, Eige
     }
 }
 
-double EvenStrain::Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+double EvenStrain::Energy(const Values& x) const {
   return EnergyOf(std::vector<double>(x.data(), x.data() + x.size()));
 }
 
-void EvenStrain::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const {
+void EvenStrain::Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const {
   using Number = Eigen::AutoDiffScalar<Eigen::Matrix<double, kMost, 1>>;
   const auto size = static_cast<int>(x.size());
   std::vector<Number> values;
@@ -80,13 +80,11 @@ void EvenStrain::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Ei
   force = EnergyOf(values).derivatives().head(size);
 }
 
-void EvenStrain::Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+void EvenStrain::Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
   Derive(x, Eigen::VectorXd::Zero(x.size()), tangent, nullptr);
 }
 
-void EvenStrain::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                   const Eigen::Ref<const Eigen::VectorXd>& v,
-                                   Eigen::Ref<Eigen::MatrixXd> derivative) const {
+void EvenStrain::TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const {
   Eigen::MatrixXd hessian(x.size(), x.size()), change(x.size(), x.size());
   Derive(x, v, hessian, &change);
   derivative = change;

@@ -32,7 +32,7 @@ class SolidOf : public Element {
   }
   bool Linear() const override { return material_.Linear(); }
 
-  double AreaRatio(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+  double AreaRatio(const Values& x) const override {
     if (Linear()) return 1.0;
     double smallest = std::numeric_limits<double>::infinity();
     for (const Point& point : points_) {
@@ -43,7 +43,7 @@ class SolidOf : public Element {
   }
 
   // sigma dv = P F' dV (plane), J sigma33 dV across it; the linear law does not tell the volumes apart.
-  SolidStress MeanStress(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+  SolidStress MeanStress(const Values& x) const override {
     using Plane = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
     Plane sum = Plane::Zero();
     double across = 0.0, volume = 0.0;
@@ -66,41 +66,40 @@ class SolidOf : public Element {
     return stress;
   }
 
-  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+  double Energy(const Values& x) const override {
     double energy = 0.0;
     for (const Point& point : points_) energy += point.volume * material_.Energy(point.Of(x));
     return energy;
   }
 
-  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
-    Values sum = Values::Zero();
+  void Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const override {
+    Forces sum = Forces::Zero();
     for (const Point& point : points_)
       sum += point.Derivatives().transpose() * (point.volume * material_.Stress(point.Of(x)));
     force = sum;
   }
 
-  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
+  void Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
     Square sum = Square::Zero();
     for (const Point& point : points_) point.Add(material_.Tangent(point.Of(x)), &sum);
     tangent = sum;
   }
 
-  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
-                         Eigen::Ref<Eigen::MatrixXd> derivative) const override {
+  void TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const override {
     Square sum = Square::Zero();
     for (const Point& point : points_) point.Add(material_.TangentDerivative(point.Of(x), point.Of(v)), &sum);
     derivative = sum;
   }
 
  private:
-  using Values = Eigen::Matrix<double, 2 * kNodes, 1>;
+  using Forces = Eigen::Matrix<double, 2 * kNodes, 1>;
   using Square = Eigen::Matrix<double, 2 * kNodes, 2 * kNodes>;
 
   // An integration point.
   struct Point {
     // F of the values x: of positions the deformation gradient, of a direction its rate. From the first node, so that
     // the distance from the origin costs no digits.
-    Gradient Of(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    Gradient Of(const Values& x) const {
       Gradient F = Gradient::Zero();
       for (int i = 1; i < kNodes; ++i)
         for (int k = 0; k < 2; ++k) F.template segment<2>(2 * k) += (x[2 * i + k] - x[k]) * gradients.col(i);

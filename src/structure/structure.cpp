@@ -85,20 +85,15 @@ void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, cons
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     const auto number = static_cast<int>(i);
-    if (IsAttached(node)) {
-      add(number, Field::kPosition, 0, start[2 * i], true, 0.0);
-      add(number, Field::kPosition, 1, start[2 * i + 1], true, 0.0);
-      if (rotates[i]) add(number, Field::kRotation, 0, configuration.start_rotations[i], true, 0.0);
-      continue;
-    }
-    const SupportMotion* const motion = motions[i];
+    const bool attached = IsAttached(node);
+    const SupportMotion motion = attached || motions[i] == nullptr ? SupportMotion() : *motions[i];
     const std::size_t before = prescribed_.size();
-    add(number, Field::kPosition, 0, start[2 * i], node.fixed_x, motion != nullptr ? motion->dx : 0.0);
-    add(number, Field::kPosition, 1, start[2 * i + 1], node.fixed_y, motion != nullptr ? motion->dy : 0.0);
+    add(number, Field::kPosition, 0, start[2 * i], attached || node.fixed_x, motion.dx);
+    add(number, Field::kPosition, 1, start[2 * i + 1], attached || node.fixed_y, motion.dy);
     if (prescribed_.size() == before + 2) oblique_supports_.push_back(before);
     if (rotates[i])
-      add(number, Field::kRotation, 0, configuration.start_rotations[i], node.fixed_rotation,
-          motion != nullptr ? motion->rotation : 0.0);
+      add(number, Field::kRotation, 0, configuration.start_rotations[i], attached || node.fixed_rotation,
+          motion.rotation);
   }
   start_values_ = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   start_ = Eigen::Map<const Eigen::VectorXd>(unknowns.data(), static_cast<Eigen::Index>(unknowns.size()));
@@ -108,14 +103,15 @@ void Structure::Attach(const Scene& scene, const SceneIndex& index) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     const auto number = static_cast<int>(i);
-    if (IsBody(node))
+    if (IsBody(node)) {
       bodies_.push_back({dofs_.Index(number, Field::kPosition, 0), dofs_.Index(number, Field::kPosition, 1),
                          dofs_.Index(number, Field::kRotation, 0)});
-    if (IsBody(node)) body_starts_[number] = {node.x, node.y};
-    if (!IsAttached(node)) continue;
-    const std::size_t body = index.Node(node.body);
-    const Node& at = scene.nodes[body];
-    attachments_[number] = {static_cast<int>(body), {node.x - at.x, node.y - at.y}};
+      body_starts_[number] = {node.x, node.y};
+    } else if (IsAttached(node)) {
+      const std::size_t body = index.Node(node.body);
+      const Node& at = scene.nodes[body];
+      attachments_[number] = {static_cast<int>(body), {node.x - at.x, node.y - at.y}};
+    }
   }
 }
 
@@ -225,26 +221,42 @@ void Structure::Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>
     x[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? u[part.dofs[i]] : start_values_[part.components[i]];
 }
 
+template <typename Visit>
+void Structure::ForEachPart(const Eigen::Ref<const Eigen::VectorXd>& u, Visit visit) const {
+  Scratch room;
+  for (const Part& part : parts_) {
+    auto x = room.Vector(part.dofs.size());
+    Gather(part, u, x);
+    visit(part, x);
+  }
+}
+
+template <typename Fill>
+void Structure::Assemble(const Eigen::Ref<const Eigen::VectorXd>& u, Fill fill,
+                         Eigen::SparseMatrix<double>* sum) const {
+  std::fill_n(sum->valuePtr(), sum->nonZeros(), 0.0);
+  Scratch room;
+  ForEachPart(u, [&](const Part& part, const auto& x) {
+    auto local = room.Square(part.dofs.size());
+    fill(part, x, local);
+    Scatter(part.entries, local.data(), sum->valuePtr());
+  });
+}
+
 double Structure::Energy(const Eigen::VectorXd& u) const {
   double energy = 0.0;
-  Scratch x_room;
-  for (const Part& part : parts_) {
-    auto x = x_room.Vector(part.dofs.size());
-    Gather(part, u, x);
-    energy += part.element->Energy(x);
-  }
+  ForEachPart(u, [&](const Part& part, const auto& x) { energy += part.element->Energy(x); });
   return energy;
 }
 
 void Structure::InternalForce(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> force) const {
   force.setZero();
-  Scratch x_room, local_room;
-  for (const Part& part : parts_) {
-    auto x = x_room.Vector(part.dofs.size()), local = local_room.Vector(part.dofs.size());
-    Gather(part, u, x);
+  Scratch room;
+  ForEachPart(u, [&](const Part& part, const auto& x) {
+    auto local = room.Vector(part.dofs.size());
     part.element->Force(x, local);
     Scatter(part.dofs, local.data(), force.data());
-  }
+  });
 }
 
 Eigen::VectorXd Structure::SupportReactions(const Eigen::Ref<const Eigen::VectorXd>& u, double s) const {
@@ -264,86 +276,66 @@ Eigen::VectorXd Structure::ForceBounds() const {
 
 Eigen::VectorXd Structure::StiffnessBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(NumDofs());
-  Scratch x_room, local_room;
-  for (const Part& part : parts_) {
-    auto x = x_room.Vector(part.dofs.size());
-    auto local = local_room.Square(part.dofs.size());
-    Gather(part, start_, x);
+  Scratch room;
+  ForEachPart(start_, [&](const Part& part, const auto& x) {
+    auto local = room.Square(part.dofs.size());
     part.element->Tangent(x, local);
     const Eigen::MatrixXd sizes = local.cwiseAbs();
     // In a later stage supports have moved, and an element that is not yet deformed with them may be inside out.
-    if (!sizes.allFinite()) continue;
+    if (!sizes.allFinite()) return;
     for (std::size_t i = 0; i < part.dofs.size(); ++i)
       if (part.dofs[i] >= 0)
         bounds[part.dofs[i]] +=
             part.element->Linear() ? sizes.row(static_cast<Eigen::Index>(i)).sum() : sizes.maxCoeff();
-  }
+  });
   return bounds;
 }
 
 void Structure::Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const {
-  std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
-  Scratch x_room, local_room;
-  for (const Part& part : parts_) {
-    auto x = x_room.Vector(part.dofs.size());
-    auto local = local_room.Square(part.dofs.size());
-    Gather(part, u, x);
-    part.element->Tangent(x, local);
-    Scatter(part.entries, local.data(), tangent->valuePtr());
-  }
+  Assemble(
+      u, [](const Part& part, const auto& x, auto& local) { part.element->Tangent(x, local); }, tangent);
 }
 
 Eigen::MatrixXd Structure::ArtificialForces(const Eigen::VectorXd& u, const Eigen::MatrixXd& motions) const {
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
-  Scratch x_room, local_room;
-  for (const Part& part : parts_) {
-    if (!part.element->Artificial()) continue;
-    auto x = x_room.Vector(part.dofs.size());
-    auto local = local_room.Square(part.dofs.size());
-    Gather(part, u, x);
+  Scratch room;
+  ForEachPart(u, [&](const Part& part, const auto& x) {
+    if (!part.element->Artificial()) return;
+    auto local = room.Square(part.dofs.size());
     part.element->Tangent(x, local);
     for (std::size_t i = 0; i < part.dofs.size(); ++i)
       for (std::size_t k = 0; k < part.dofs.size(); ++k)
         if (part.dofs[i] >= 0 && part.dofs[k] >= 0)
           forces.row(part.dofs[i]) +=
               local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) * motions.row(part.dofs[k]);
-  }
+  });
   return forces;
 }
 
 void Structure::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& from,
                              const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::SparseMatrix<double>* tangent) const {
-  std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
-  Scratch x_room, from_room, to_room, local_room;
-  for (const Part& part : parts_) {
-    const std::size_t size = part.dofs.size();
-    auto x = x_room.Vector(size), local_from = from_room.Vector(size), local_to = to_room.Vector(size);
-    auto local = local_room.Square(size);
-    Gather(part, u, x);
+  Scratch from_room, to_room;
+  const auto fill = [&](const Part& part, const auto& x, auto& local) {
+    if (!part.element->Mixed()) return part.element->Tangent(x, local);
+    auto local_from = from_room.Vector(part.dofs.size()), local_to = to_room.Vector(part.dofs.size());
     Gather(part, from, local_from);
     Gather(part, to, local_to);
-    if (part.element->Mixed())
-      part.element->MixedTangent(x, local_from, local_to, local);
-    else
-      part.element->Tangent(x, local);
-    Scatter(part.entries, local.data(), tangent->valuePtr());
-  }
+    part.element->MixedTangent(x, local_from, local_to, local);
+  };
+  Assemble(u, fill, tangent);
 }
 
 void Structure::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& u,
                                   const Eigen::Ref<const Eigen::VectorXd>& v,
                                   Eigen::SparseMatrix<double>* derivative) const {
-  std::fill_n(derivative->valuePtr(), derivative->nonZeros(), 0.0);
-  Scratch x_room, direction_room, local_room;
-  for (const Part& part : parts_) {
-    auto x = x_room.Vector(part.dofs.size()), direction = direction_room.Vector(part.dofs.size());
-    auto local = local_room.Square(part.dofs.size());
-    Gather(part, u, x);
+  Scratch room;
+  const auto fill = [&](const Part& part, const auto& x, auto& local) {
+    auto direction = room.Vector(part.dofs.size());
     for (std::size_t i = 0; i < part.dofs.size(); ++i)
       direction[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? v[part.dofs[i]] : 0.0;
     part.element->TangentDerivative(x, direction, local);
-    Scatter(part.entries, local.data(), derivative->valuePtr());
-  }
+  };
+  Assemble(u, fill, derivative);
 }
 
 }  // namespace contact_path

@@ -58,10 +58,6 @@ class Counted : public ContactPair {
     ++*looks_;
     return {0, Gap(u, s, 0), false};
   }
-  int PatchAt(const Eigen::VectorXd&, double) const override { return 0; }
-  int PatchAfter(const Eigen::VectorXd&, double, int) const override { return 0; }
-  bool HasPatch(int patch) const override { return patch == 0; }
-  XiRange RangeOf(int) const override { return {}; }
 
  private:
   double gap_;

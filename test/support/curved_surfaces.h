@@ -14,8 +14,6 @@ class DiscOutside : public Surface {
  public:
   DiscOutside(const Eigen::Vector2d& centre, double radius) : centre_(centre), radius_(radius) {}
 
-  bool Flat() const override { return false; }
-  NearestFoot Nearest(const Eigen::Vector2d& x) const override { return {0, std::abs(Project(x, 0).gap), false}; }
   Projection Project(const Eigen::Vector2d& x, int /*patch*/) const override {
     const double distance = (x - centre_).norm();
     Projection projection;
@@ -39,7 +37,6 @@ class Spiral : public Surface {
  public:
   Spiral(double a, double b, double c) : a_(a), b_(b), c_(c) {}
 
-  bool Flat() const override { return false; }
   Eigen::Vector2d PointAt(double xi) const override {
     Eigen::Vector2d point = Eigen::Vector2d::Zero();
     constexpr int kPieces = 40;
@@ -51,7 +48,6 @@ class Spiral : public Surface {
       }
     return point;
   }
-  NearestFoot Nearest(const Eigen::Vector2d& x) const override { return {0, std::abs(Project(x, 0).gap), false}; }
   Projection Project(const Eigen::Vector2d& x, int /*patch*/) const override {
     double xi = x.x();
     for (int i = 0; i < 60; ++i) {

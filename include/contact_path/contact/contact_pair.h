@@ -4,21 +4,16 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "contact_path/contact/contact_limits.h"
 #include "contact_path/contact/contact_state.h"
 #include "contact_path/geometry/surface.h"
 #include "contact_path/law/laws.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-
-// In place of the patch of an open contact: the one that is nearest, which is looked for where it is needed.
-inline constexpr int kNearestPatch = std::numeric_limits<int>::min();
 
 // What is taken back of an overlap at the start as s grows: the gap is more than between the places by at_0 + rate s.
 struct BroughtOn {
@@ -28,7 +23,7 @@ struct BroughtOn {
 
 // Gap u_n and surface coordinate xi as functions of the unknowns that move the pair, its dofs, and of the load factor.
 // The columns of the matrix T of eq. (1) are their gradients: the force r_n grad u_n + r_t c grad xi acts on the
-// structure (contact/contact_limits.h). Slip is c dxi. Pieces of the law are patches of the surface, prolonged beyond
+// structure (contact/contact_state.h). Slip is c dxi. Pieces of the law are patches of the surface, prolonged beyond
 // their ends (geometry/surface.h). Functions with the parameter `patch` take kNearestPatch, too, except HasPatch() and
 // RangeOf().
 class ContactPair : public Law {
@@ -57,20 +52,20 @@ class ContactPair : public Law {
   virtual NearestFoot Nearest(const Eigen::VectorXd& u, double s) const = 0;
   // The patch where the surface is nearest; past an end of an open surface the number before the first patch, or after
   // the last one.
-  virtual int PatchAt(const Eigen::VectorXd& u, double s) const = 0;
+  int PatchAt(const Eigen::VectorXd& u, double s) const { return PatchAfter(u, s, kNearestPatch); }
   // PatchAt(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
-  virtual int PatchAfter(const Eigen::VectorXd& u, double s, int from) const = 0;
+  virtual int PatchAfter(const Eigen::VectorXd& /*u*/, double /*s*/, int /*from*/) const { return 0; }
   // `patch` itself, or the nearest patch where `patch` is kNearestPatch.
   int KnownPatch(const Eigen::VectorXd& u, double s, int patch) const {
     return patch == kNearestPatch ? PatchAt(u, s) : patch;
   }
-  virtual bool HasPatch(int patch) const = 0;
+  virtual bool HasPatch(int /*patch*/) const { return true; }
   // Where a node touches that is on an end of its surface: by rounding, the foot may be past the end.
   int PatchOfTouching(int patch) const;
   // Whether this number stands for a node that is away from the surface (geometry/surface.h).
   bool IsAway(int patch) const { return !HasPatch(patch - 1) && !HasPatch(patch) && !HasPatch(patch + 1); }
   // The range of xi, measured from 0, on the patch; past the ends of an open surface infinite on one side.
-  virtual XiRange RangeOf(int patch) const = 0;
+  virtual XiRange RangeOf(int /*patch*/) const { return {}; }
 
   // Whether another part of the surface than the patch that the node touches has come over the node between u and
   // `after`: that part is now nearer to it, or the node has gone through it. Asked of deformable pairs.
@@ -156,6 +151,7 @@ class ContactPair : public Law {
  private:
   std::vector<ContactState> StatesAt(const Eigen::VectorXd& u, double s, int patch, ContactState now, double rn,
                                      double rt, const ActiveSetTolerance& tolerance) const;
+  bool PatchesEnd() const { return HasPatches() && !Seamless(); }
   void AddPatchEnds(const Mode& mode, int law, std::vector<Limit>* limits) const;
 
   SurfaceTraits surface_traits_;

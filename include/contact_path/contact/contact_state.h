@@ -1,14 +1,35 @@
-// State of a contact candidate on an arc of path, and its share of a point.
+// State of a contact candidate on an arc of path, its limits, and its share of a point.
 #ifndef CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 #define CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 
 #include <cstddef>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contact_path/law/path_point.h"
+#include "contact_path/scene/words.h"
 
 namespace contact_path {
+
+// The ports of a contact: gap u_n with the normal reaction r_n, and xi, the surface coordinate, with the tangential
+// reaction r_t. Slip is the factor of the port times dxi. Of a circle that rolls over patches, xi has the turn of the
+// circle in it; where its foot is on the patches is a motion without a force, behind the ports.
+inline constexpr unsigned kNormal = 0, kTangent = 1, kFoot = 2;
+
+// Limit::id of a contact.
+enum class ContactLimit {
+  kGap,             // open: u_n
+  kNormalReaction,  // touching: r_n
+  kConePlus,        // stick: mu r_n + r_t (at zero, slip+ is next)
+  kConeMinus,       // stick: mu r_n - r_t (at zero, slip- is next)
+  kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference; what must be >= 0 is its rate
+  kTotalSlip,       // slip+- by the total law: +-(xi - xi_ref) itself
+  kPatchBegin,      // not sticking, on a surface with patches: xi - begin (at zero, the patch before is next)
+  kPatchEnd,        // not sticking, on a surface with patches: end - xi (at zero, the patch after is next)
+};
+
+inline int NumberOf(ContactLimit limit) { return static_cast<int>(limit); }
 
 // Signs: the reaction acts on the node, r_n along the normal n, r_t along t = (n_y, -n_x). The numbers are those of
 // Mode::state.
@@ -20,8 +41,15 @@ enum class ContactState {
   kOpen,       // gap >= 0, r = 0
 };
 
-// "open", "stick", "slip+", "slip-", "closed".
-std::string_view ToString(ContactState state);
+template <>
+struct Words<ContactState> {
+  static constexpr ContactState kDefault = ContactState::kOpen;
+  static constexpr std::pair<std::string_view, ContactState> kAll[] = {{"open", ContactState::kOpen},
+                                                                       {"stick", ContactState::kStick},
+                                                                       {"slip+", ContactState::kSlipPlus},
+                                                                       {"slip-", ContactState::kSlipMinus},
+                                                                       {"closed", ContactState::kClosed}};
+};
 
 // slip+ or slip-.
 inline bool Slips(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }
@@ -40,7 +68,11 @@ inline double TangentialReaction(const PathPoint& point, std::size_t contact) {
 inline void SetReaction(std::size_t contact, double rn, double rt, PathPoint* point) {
   point->forces.segment<2>(2 * static_cast<Eigen::Index>(contact)) << rn, rt;
 }
-std::vector<ContactState> ContactStatesOf(const Modes& modes, std::size_t contacts);
+inline std::vector<ContactState> ContactStatesOf(const Modes& modes, std::size_t contacts) {
+  std::vector<ContactState> states;
+  for (std::size_t i = 0; i < contacts; ++i) states.push_back(StateOf(modes[i]));
+  return states;
+}
 
 }  // namespace contact_path
 

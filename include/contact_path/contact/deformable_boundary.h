@@ -77,7 +77,6 @@ class BoundaryAt : public Surface {
   BoundaryAt(const DeformableBoundary& boundary, const Eigen::VectorXd& u, const AdmissiblePatches& patches)
       : boundary_(boundary), u_(u), patches_(patches) {}
 
-  bool Flat() const override { return false; }
   bool Closed() const override { return boundary_.Spline().Closed(); }
   int NumPatches() const override { return boundary_.Spline().NumPatches(); }
   bool HasPatch(int patch) const override { return patches_.Has(patch); }
@@ -88,6 +87,7 @@ class BoundaryAt : public Surface {
   Eigen::Vector2d PointAt(double xi) const override;
 
  private:
+  struct Foot;
   Parabola ParabolaOf(const SplinePatch& patch) const { return {patch, boundary_.Places(patch, u_)}; }
   // Whether x, which has its foot on the patch, is deep behind the curve and not in its part.
   bool IsAway(const Eigen::Vector2d& x, int patch) const;

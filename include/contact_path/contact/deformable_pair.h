@@ -28,7 +28,6 @@ class DeformablePair : public ContactPair {
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
   // The distance is less by the radius than that from the spline: of a node within the radius it is below 0.
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
-  int PatchAt(const Eigen::VectorXd& u, double s) const override;
   int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
   bool HasPatch(int patch) const override;
   XiRange RangeOf(int patch) const override;

@@ -41,7 +41,6 @@ class RigidPair : public ContactPair {
                 PortsAt* ports) const override;
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
-  int PatchAt(const Eigen::VectorXd& u, double s) const override;
   int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
   bool HasPatch(int patch) const override { return surface_->HasPatch(patch); }
   bool TouchesTwice(const Eigen::VectorXd& u, double s, int patch) const override;

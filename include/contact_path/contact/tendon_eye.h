@@ -51,27 +51,15 @@ class TendonEye : public ContactPair {
   // By how much the pieces are longer at rest than from node to node.
   double GapOnRecord(const Eigen::VectorXd& u, double s, int piece) const override;
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override { return {0, Gap(u, s, 0), false}; }
-  int PatchAt(const Eigen::VectorXd& /*u*/, double /*s*/) const override { return 0; }
-  int PatchAfter(const Eigen::VectorXd& /*u*/, double /*s*/, int /*from*/) const override { return 0; }
-  bool HasPatch(int /*patch*/) const override { return true; }
-  XiRange RangeOf(int patch) const override;
 
  private:
-  // A function of (dx1, dy1, w1, a1, dx2, dy2, w2, a2) of the spans: from node to node, what is wound by drums and the
-  // arcs at the start, the length at rest.
-  static constexpr int kLocals = 8;
-  using Gradient = Eigen::Matrix<double, kLocals, 1>;
-  using Hessian = Eigen::Matrix<double, kLocals, kLocals>;
   struct Function {
-    double value = 0.0;
-    Gradient gradient;
-    Hessian hessian;
+    double value;
+    LawVector gradient;
+    LawMatrix hessian;
   };
-  // Both functions, and their derivatives by q.
   struct Place {
     Function sum, share;  // N, the factor of port 1
-    LawVector sum_gradient, share_gradient;
-    LawMatrix sum_hessian, share_hessian;
   };
   Place At(const Eigen::VectorXd& u, double s) const;
   Eigen::Index SlidEntry() const;

@@ -106,7 +106,6 @@ class Curve : public Surface {
   // At least one piece. xi: of the begin of the first piece. seamless: the pieces are of one smooth curve.
   Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi = 0.0, bool seamless = false);
 
-  bool Flat() const override { return false; }
   bool Closed() const override { return closed_; }
   bool Seamless() const override { return seamless_; }
   int NumPatches() const override { return static_cast<int>(pieces_.size()); }

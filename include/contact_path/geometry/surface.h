@@ -4,7 +4,10 @@
 #define CONTACT_PATH_GEOMETRY_SURFACE_H_
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
+
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 
@@ -34,6 +37,9 @@ Eigen::Matrix2d XiHessian(const Projection& at);
 Eigen::Matrix2d GapHessianChange(const Projection& at, const Eigen::Vector2d& v);
 Eigen::Matrix2d XiHessianChange(const Projection& at, const Eigen::Vector2d& v);
 
+// In place of a patch: the one that is nearest, which is looked for where it is needed.
+inline constexpr int kNearestPatch = std::numeric_limits<int>::min();
+
 // Values of the arc coordinate [length].
 struct XiRange {
   double begin = -std::numeric_limits<double>::infinity();
@@ -48,6 +54,25 @@ struct NearestFoot {
   bool is_away = false;   // the point is so far behind the curve that it is not behind it: it went round an end
 };
 
+// The nearest one of feet on patches, offered in any order; of equally near ones that on the first patch.
+struct NearestOfPatches {
+  NearestFoot foot = {0, std::numeric_limits<double>::infinity()};
+  double most = std::numeric_limits<double>::infinity();  // what is farther is not nearer
+
+  void OfferFoot(int patch, double distance) { Offer({patch, distance}, distance); }
+  // An end of the patch. Where the curve goes on, the foot on the next patch is as far, to rounding, and comes first.
+  void OfferEnd(int patch, double distance, bool goes_on) {
+    Offer({patch, distance, !goes_on}, goes_on ? (1.0 + tolerances::kActive) * distance : distance);
+  }
+
+ private:
+  void Offer(const NearestFoot& offered, double counted) {
+    if (!(counted < most || (counted == most && offered.patch < foot.patch))) return;
+    most = counted;
+    foot = offered;
+  }
+};
+
 // A curve with a tangent that is continuous, walked with the admissible side on the left. It consists of patches, on
 // which it is as smooth as a path needs it: from one patch to the next, curvature may jump, unless the curve is
 // seamless. The arc coordinate is continuous over all patches. Patches are numbered from 0 along the curve. On a closed
@@ -58,14 +83,14 @@ class Surface {
   virtual ~Surface() = default;
 
   // Whether the curvature is zero everywhere: then gap and xi are affine in x.
-  virtual bool Flat() const = 0;
+  virtual bool Flat() const { return false; }
   virtual bool Closed() const { return false; }
   // Whether the curvature has all derivatives also where patches meet: which of them a foot is on decides nothing.
   virtual bool Seamless() const { return false; }
   virtual int NumPatches() const { return 1; }  // of one round
   virtual XiRange RangeOf(int /*patch*/) const { return {}; }
   // Of a closed curve a patch of the first round, 0 to NumPatches() - 1.
-  virtual NearestFoot Nearest(const Eigen::Vector2d& x) const = 0;
+  virtual NearestFoot Nearest(const Eigen::Vector2d& x) const { return {0, std::abs(Project(x, 0).gap), false}; }
   // Nearest(), found faster where the foot is on the patch `near` or not far from it. near: a patch of the first round;
   // -1 = not known.
   virtual NearestFoot NearestFrom(const Eigen::Vector2d& x, int /*near*/) const { return Nearest(x); }
@@ -82,10 +107,9 @@ class Surface {
 
 // The patch where a surface is nearest to x. Past an end of the surface: the number before the patch that begins at
 // this end, or after the patch that ends there; the surface has no patch of this number. Away from the surface: a
-// number whose neighbours the surface does not have either.
-int PatchBeside(const Surface& surface, const Eigen::Vector2d& x);
-// PatchBeside(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
-int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from);
+// number whose neighbours the surface does not have either. On a closed surface in the first round, or in the round
+// that brings it nearest to the patch `from`.
+int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from = kNearestPatch);
 // Of xi on a patch; past an end of the surface infinite on one side.
 XiRange RangeBeside(const Surface& surface, int patch);
 // The gap on a patch. Where the surface does not have such a patch: the distance from the surface.
@@ -98,7 +122,6 @@ class HalfPlane : public Surface {
   HalfPlane(const Eigen::Vector2d& point, const Eigen::Vector2d& normal);
 
   bool Flat() const override { return true; }
-  NearestFoot Nearest(const Eigen::Vector2d& x) const override;
   Projection Project(const Eigen::Vector2d& x, int patch) const override;
   Eigen::Vector2d PointAt(double xi) const override { return offset_ * normal_ + xi * TangentOf(normal_); }
 

@@ -90,6 +90,9 @@ struct WrapLimit {
 // Of all tendons of an expanded scene, by the places of its nodes.
 std::vector<WrapLimit> WrapLimits(const Scene& scene, const SceneIndex& index);
 
+// The piece of a tendon that slides in (0) or out (1) through the eye of this node. scene: expanded.
+const Tendon& PieceAtEye(const Scene& scene, const std::string& eye, std::size_t end);
+
 // The route of a tendon of the scene by the places of its nodes there.
 TendonRoute RouteIn(const Scene& scene, const SceneIndex& index, const Tendon& tendon);
 

@@ -29,18 +29,15 @@ class AttachedElement : public Element {
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
   bool Artificial() const override { return inner_->Artificial(); }
-  double AreaRatio(const Eigen::Ref<const Eigen::VectorXd>& z) const override { return inner_->AreaRatio(Inner(z)); }
-  SolidStress MeanStress(const Eigen::Ref<const Eigen::VectorXd>& z) const override {
-    return inner_->MeanStress(Inner(z));
-  }
-  double Energy(const Eigen::Ref<const Eigen::VectorXd>& z) const override { return inner_->Energy(Inner(z)); }
-  void Force(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> force) const override;
-  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  double AreaRatio(const Values& z) const override { return inner_->AreaRatio(Inner(z)); }
+  SolidStress MeanStress(const Values& z) const override { return inner_->MeanStress(Inner(z)); }
+  double Energy(const Values& z) const override { return inner_->Energy(Inner(z)); }
+  void Force(const Values& z, Eigen::Ref<Eigen::VectorXd> force) const override;
+  void Tangent(const Values& z, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
   bool Mixed() const override { return inner_->Mixed(); }
-  void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& z, const Eigen::Ref<const Eigen::VectorXd>& from,
-                    const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
-  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& z, const Eigen::Ref<const Eigen::VectorXd>& v,
-                         Eigen::Ref<Eigen::MatrixXd> derivative) const override;
+  void MixedTangent(const Values& z, const Values& from, const Values& to,
+                    Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  void TangentDerivative(const Values& z, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const override;
 
  private:
   // Inner values x, y of a node at a place, which is a function of the values z.
@@ -52,8 +49,9 @@ class AttachedElement : public Element {
 
   AttachedElement() = default;
   Eigen::VectorXd Inner(const Eigen::VectorXd& z) const;
-  // What the change of the places' gradients adds to the tangent.
-  Eigen::MatrixXd Bend(const At& at, const Eigen::VectorXd& inner_force) const;
+  Eigen::VectorXd InnerForce(const At& at) const;
+  // By z, of a tangent of the inner element and its force.
+  Eigen::MatrixXd Outer(const At& at, const Eigen::MatrixXd& tangent, const Eigen::VectorXd& force) const;
 
   std::unique_ptr<const Element> inner_;
   std::vector<LocalDof> dofs_;

@@ -28,38 +28,38 @@ class BeamSegment : public Element {
   BeamSegment(const Stiffness& stiffness, const Eigen::Vector2d& chord, bool hinged_first, bool hinged_second);
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
-  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
-  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override;
-  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  double Energy(const Values& x) const override;
+  void Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const override;
+  void Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
   // Of the axial force.
   bool Mixed() const override { return true; }
-  void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& from,
-                    const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
-  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
-                         Eigen::Ref<Eigen::MatrixXd> derivative) const override;
+  void MixedTangent(const Values& x, const Values& from, const Values& to,
+                    Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  void TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const override;
 
  private:
   // The span d of the nodes and the rotations of both ends; a hinged one counts as zero.
   using Coordinates = Eigen::Vector4d;
   using Square = Eigen::Matrix4d;
   struct Chord;
+  struct At;
+  // A value in a coordinate.
+  struct Share {
+    Eigen::Index coordinate;
+    double sign;
+  };
 
-  Coordinates CoordinatesOf(const Eigen::Ref<const Eigen::VectorXd>& x) const;
-  Eigen::Vector2d EndRotations(const Chord& chord, const Coordinates& at) const;
-  // Gradients of l, a and b, one in each column.
-  Eigen::Matrix<double, 4, 3> Gradients(const Chord& chord) const;
-  // Derivatives of W by l, a and b.
-  Eigen::Vector3d Forces(const Chord& chord, const Coordinates& at) const;
-  Eigen::Matrix3d Stiffnesses() const;
+  Coordinates CoordinatesOf(const Values& x) const;
   // The tangent by the coordinates, with these forces.
-  Square TangentOf(const Chord& chord, const Eigen::Vector3d& forces) const;
+  Square TangentOf(const At& at, const Eigen::Vector3d& forces) const;
   void Spread(const Square& of_coordinates, Eigen::Ref<Eigen::MatrixXd> out) const;
 
   double EA_, length_;
-  Eigen::Matrix2d bending_;  // d2W by (a, b)
-  Eigen::Vector2d along_;    // the chord at the start, of length 1
+  Eigen::Matrix3d stiffnesses_;  // d2W by l, a and b
+  Eigen::Vector2d along_;        // the chord at the start, of length 1
   bool hinged_first_, hinged_second_;
   std::vector<LocalDof> dofs_;
+  std::vector<Share> shares_;  // by value
 };
 
 }  // namespace contact_path

@@ -41,6 +41,8 @@ struct SolidStress {
 // inside out) gives non-finite values.
 class Element {
  public:
+  using Values = Eigen::Ref<const Eigen::VectorXd>;
+
   virtual ~Element() = default;
 
   virtual const std::vector<LocalDof>& Dofs() const = 0;
@@ -50,29 +52,26 @@ class Element {
   virtual bool Artificial() const { return false; }
   // The smallest ratio of a current area to its initial one, over the integration points; an element with a ratio <= 0
   // is turned inside out, and its energy is not finite. 1 for an element without an area.
-  virtual double AreaRatio(const Eigen::Ref<const Eigen::VectorXd>&) const { return 1.0; }
+  virtual double AreaRatio(const Values&) const { return 1.0; }
   // Of an element of a solid; of another one zeros.
-  virtual SolidStress MeanStress(const Eigen::Ref<const Eigen::VectorXd>&) const { return {}; }
+  virtual SolidStress MeanStress(const Values&) const { return {}; }
   // W(x) [force length].
-  virtual double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const = 0;
+  virtual double Energy(const Values& x) const = 0;
   // force = dW/dx, m [force].
-  virtual void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const = 0;
+  virtual void Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const = 0;
   // tangent = d2W/dx2, m x m, symmetric [force/length].
-  virtual void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const = 0;
+  virtual void Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const = 0;
   // Whether there is a MixedTangent(): of an element much stiffer in one way than in others.
   virtual bool Mixed() const { return false; }
   // The tangent at x with the stiff internal forces that `to` has by strains linearised at `from`, in place of those at
   // x. Newton's method on strains and positions together, the strains eliminated, has this matrix (Magisano, Leonetti &
   // Garcea 2017): strains that are off by little do not pass for large forces. Zero where it is not Mixed().
-  virtual void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& /*x*/,
-                            const Eigen::Ref<const Eigen::VectorXd>& /*from*/,
-                            const Eigen::Ref<const Eigen::VectorXd>& /*to*/,
+  virtual void MixedTangent(const Values& /*x*/, const Values& /*from*/, const Values& /*to*/,
                             Eigen::Ref<Eigen::MatrixXd> tangent) const {
     tangent.setZero();
   }
   // derivative = d/dh tangent(x + h v) at h = 0, m x m, symmetric. It is also the gradient of tangent(x) v.
-  virtual void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
-                                 Eigen::Ref<Eigen::MatrixXd> derivative) const = 0;
+  virtual void TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const = 0;
 };
 
 }  // namespace contact_path

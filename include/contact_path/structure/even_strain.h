@@ -41,11 +41,10 @@ class EvenStrain : public Element {
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
   bool Artificial() const override { return true; }
-  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
-  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override;
-  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
-  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
-                         Eigen::Ref<Eigen::MatrixXd> derivative) const override;
+  double Energy(const Values& x) const override;
+  void Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const override;
+  void Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  void TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const override;
 
  private:
   template <typename Number>

@@ -118,6 +118,12 @@ class Structure {
   // By unknown: the sum of the largest stiffnesses of the elements there, at the start.
   Eigen::VectorXd StiffnessBounds() const;
   void Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> x) const;
+  // Calls visit(part, x) for each part, with its values at u.
+  template <typename Visit>
+  void ForEachPart(const Eigen::Ref<const Eigen::VectorXd>& u, Visit visit) const;
+  // On the pattern, the sum of the matrices of all parts, which fill(part, x, matrix) sets.
+  template <typename Fill>
+  void Assemble(const Eigen::Ref<const Eigen::VectorXd>& u, Fill fill, Eigen::SparseMatrix<double>* sum) const;
 
   DofMap dofs_;
   Eigen::VectorXd start_values_;  // of all components
