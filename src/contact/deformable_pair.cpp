@@ -42,9 +42,9 @@ T Dot(const Plane<T>& a, const Plane<T>& b) {
 
 // Along a parabola from one foot: where the node is, and what follows.
 template <typename T>
-struct Foot {
+struct FootOnParabola {
   // tau: of the foot, or near it.
-  Foot(const SplinePatch& patch, const Places<T>& z, const T& tau) {
+  FootOnParabola(const SplinePatch& patch, const Places<T>& z, const T& tau) {
     second = {Constant<T>(0.0), Constant<T>(0.0)};
     first = second;
     away = {z[0], z[1]};
@@ -75,10 +75,10 @@ struct Values {
     // Each step of Newton's method from the foot doubles the order to which derivatives are right.
     knot = Constant<T>(foot);
     for (int i = 0; i < order; ++i) {
-      const Foot<T> at(patch, z, knot);
+      const FootOnParabola<T> at(patch, z, knot);
       knot = T(knot + T(Dot(at.away, at.first)) / at.Bend());
     }
-    const Foot<T> at(patch, z, knot);
+    const FootOnParabola<T> at(patch, z, knot);
     using std::sqrt;
     const T square = Dot(at.first, at.first), speed = T(sqrt(square)), bend = at.Bend();
     const Plane<T> normal = {T(Constant<T>(0.0) - at.first.y) / speed, T(at.first.x / speed)};

@@ -1,5 +1,6 @@
 #include "contact_path/geometry/point_curves.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -41,10 +42,6 @@ struct Edges {
   std::vector<double> lengths;
   std::vector<Vector2d> directions;
   std::vector<double> turns;  // at the begin of the edge, to the left > 0 [rad]
-};
-
-struct Box {
-  Vector2d lower, upper;
 };
 
 // Whether two segments have a point in common.
@@ -156,17 +153,17 @@ std::optional<std::size_t> FindEqualPoints(const PlanePoints& points, bool close
 std::optional<std::pair<std::size_t, std::size_t>> FindCrossing(const PlanePoints& points) {
   const std::size_t n = points.size();
   const auto end = [&](std::size_t i) -> const Vector2d& { return points[(i + 1) % n]; };
-  std::vector<Box> boxes;
-  for (std::size_t i = 0; i < n; ++i) boxes.push_back({points[i].cwiseMin(end(i)), points[i].cwiseMax(end(i))});
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (std::size_t i = 0; i < n; ++i) boxes.emplace_back(points[i].cwiseMin(end(i)), points[i].cwiseMax(end(i)));
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return boxes[a].lower.x() < boxes[b].lower.x(); });
+            [&](std::size_t a, std::size_t b) { return boxes[a].min().x() < boxes[b].min().x(); });
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = order[k];
-    for (std::size_t l = k + 1; l < n && boxes[order[l]].lower.x() <= boxes[i].upper.x(); ++l) {
+    for (std::size_t l = k + 1; l < n && boxes[order[l]].min().x() <= boxes[i].max().x(); ++l) {
       const std::size_t j = order[l];
-      if (boxes[j].lower.y() > boxes[i].upper.y() || boxes[j].upper.y() < boxes[i].lower.y()) continue;
+      if (boxes[j].min().y() > boxes[i].max().y() || boxes[j].max().y() < boxes[i].min().y()) continue;
       const bool before = (i + 1) % n == j, after = (j + 1) % n == i;
       // Neighbours meet at their corner. They meet elsewhere only where the second leads straight back.
       const bool meet = before || after ? Cross(end(i) - points[i], end(j) - points[j]) == 0.0 &&

@@ -59,28 +59,21 @@ void HeldStiffness::BuildSaddle(const Eigen::SparseMatrix<double>& transposed, c
     for (int place = static_cast<int>(nd); place < size; ++place)
       entries.emplace_back(place, place, acts[static_cast<std::size_t>(place)] ? 0.0 : 1.0);
   }
+  const Eigen::SparseMatrix<double> tangent = transposed.topLeftCorner(nd, nd);
+  stiffness_ = 0.5 * (tangent + Eigen::SparseMatrix<double>(tangent.transpose()));
   double largest = 0.0, skew = 0.0;
-  for (Eigen::Index equation = 0; equation < nd; ++equation) {
+  for (Eigen::Index equation = 0; equation < nd; ++equation)
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it; ++it) {
-      const Eigen::Index unknown = it.row();
-      if (unknown < nd) {
-        stiffness.emplace_back(static_cast<int>(equation), static_cast<int>(unknown), 0.5 * it.value());
-        stiffness.emplace_back(static_cast<int>(unknown), static_cast<int>(equation), 0.5 * it.value());
+      if (it.row() < nd) {
         largest = std::max(largest, std::abs(it.value()));
-      } else if (unknown > nd && it.value() != 0.0) {
-        const Eigen::Index reaction = unknown - 1 - nd;
-        const int place = places_[static_cast<std::size_t>(reaction)];
+        skew = std::max(skew, std::abs(it.value() - stiffness_.coeff(it.row(), equation)));
+      } else if (it.row() > nd && it.value() != 0.0) {
+        const auto reaction = static_cast<int>(it.row() - 1 - nd), place = places_[static_cast<std::size_t>(reaction)];
         entries.emplace_back(static_cast<int>(equation), place, it.value());
         entries.emplace_back(place, static_cast<int>(equation), it.value());
-        forces.emplace_back(static_cast<int>(equation), static_cast<int>(reaction), -it.value());
+        forces.emplace_back(static_cast<int>(equation), reaction, -it.value());
       }
     }
-  }
-  stiffness_.resize(nd, nd);
-  stiffness_.setFromTriplets(stiffness.begin(), stiffness.end());
-  for (Eigen::Index equation = 0; equation < nd; ++equation)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it && it.row() < nd; ++it)
-      if (it.row() != equation) skew = std::max(skew, std::abs(it.value() - stiffness_.coeff(it.row(), equation)));
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), it.value());
@@ -96,7 +89,6 @@ void HeldStiffness::BuildSaddle(const Eigen::SparseMatrix<double>& transposed, c
   forces_.setFromTriplets(forces.begin(), forces.end());
   symmetric_ = skew <= tolerances::kEqual * largest && ForcesActAlongMotions(transposed);
   // What a port that gives way holds is stiffness.
-  stiffness.clear();
   for (Eigen::Index reaction = 0; reaction < reactions; ++reaction) {
     const double compliance = transposed.coeff(nd + 1 + reaction, nd + reaction);
     if (compliance == 0.0) continue;
@@ -129,48 +121,50 @@ bool HeldStiffness::ForcesActAlongMotions(const Eigen::SparseMatrix<double>& tra
   return true;
 }
 
-Eigen::MatrixXd HeldStiffness::Responses(const Eigen::VectorXd& f, const std::vector<Slip>& slips) {
-  const Eigen::Index size = symmetric_ ? saddle_.rows() : transposed_.cols();
+Eigen::MatrixXd HeldStiffness::Solve(const Eigen::MatrixXd& right) const {
   const auto reactions = static_cast<Eigen::Index>(places_.size());
-  Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(size, 1 + static_cast<Eigen::Index>(slips.size()));
-  solutions.col(0).head(nd_) = f;
+  Eigen::MatrixXd unknowns(nd_ + reactions, right.cols());
+  if (!symmetric_) {
+    Eigen::MatrixXd with_load;
+    unsymmetric_.SolveAll(right, &with_load);
+    unknowns << with_load.topRows(nd_), with_load.bottomRows(reactions);
+    return unknowns;
+  }
+  Eigen::MatrixXd in_saddle = Eigen::MatrixXd::Zero(saddle_.rows(), right.cols());
+  in_saddle.topRows(nd_) = right.topRows(nd_);
+  for (Eigen::Index force = nd_; force < right.rows(); ++force) in_saddle.row(PlaceOf(force)) = right.row(force);
+  factors_.Solve(&in_saddle);
+  unknowns.topRows(nd_) = in_saddle.topRows(nd_);
+  for (Eigen::Index force = nd_; force < right.rows(); ++force) unknowns.row(force) = in_saddle.row(PlaceOf(force));
+  return unknowns;
+}
+
+Eigen::MatrixXd HeldStiffness::Responses(const Eigen::VectorXd& f, const std::vector<Slip>& slips) const {
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(nd_ + static_cast<Eigen::Index>(places_.size()),
+                                                1 + static_cast<Eigen::Index>(slips.size()));
+  right.col(0).head(nd_) = f;
   for (std::size_t k = 0; k < slips.size(); ++k) {
     const auto [force, length] = slips[k];
-    double by_row = 0.0, by_force = 0.0;
+    double& of_slip = right(force, static_cast<Eigen::Index>(k) + 1);
+    of_slip = -length;
+    if (symmetric_) continue;
     // The equations of motion are by grad xi, the columns of forces by c grad xi, slip by c dxi.
-    if (!symmetric_)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(transposed_, force); it && it.row() < nd_; ++it) {
-        by_row += it.value() * it.value();
-        by_force += it.value() * forces_.coeff(it.row(), force - nd_);
-      }
-    solutions(symmetric_ ? PlaceOf(force) : force, static_cast<Eigen::Index>(k) + 1) =
-        symmetric_ ? -length : length * by_row / by_force;
+    double by_row = 0.0, by_force = 0.0;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed_, force); it && it.row() < nd_; ++it) {
+      by_row += it.value() * it.value();
+      by_force += it.value() * forces_.coeff(it.row(), force - nd_);
+    }
+    of_slip = length * by_row / by_force;
   }
-  Eigen::MatrixXd all(nd_ + reactions, solutions.cols());
-  if (symmetric_) {
-    factors_.Solve(&solutions);
-    all.topRows(nd_) = solutions.topRows(nd_);
-    for (Eigen::Index k = 0; k < reactions; ++k) all.row(nd_ + k) = solutions.row(PlaceOf(nd_ + k));
-  } else {
-    Eigen::MatrixXd with_load;
-    unsymmetric_.SolveAll(solutions, &with_load);
-    all << with_load.topRows(nd_), with_load.bottomRows(reactions);
-  }
-  return all.allFinite() ? all : Eigen::MatrixXd();
+  const Eigen::MatrixXd responses = Solve(right);
+  return responses.allFinite() ? responses : Eigen::MatrixXd();
 }
 
 Eigen::VectorXd HeldStiffness::Influence(const Eigen::VectorXd& weights) const {
-  const auto reactions = static_cast<Eigen::Index>(places_.size());
-  if (!symmetric_) {
-    Eigen::VectorXd with_load = Eigen::VectorXd::Zero(transposed_.rows());
-    with_load << weights.head(nd_), 0.0, weights.tail(reactions);
-    return unsymmetric_.SolveTransposed(with_load).head(nd_);
-  }
-  Eigen::MatrixXd column = Eigen::MatrixXd::Zero(saddle_.rows(), 1);
-  column.col(0).head(nd_) = weights.head(nd_);
-  for (Eigen::Index k = 0; k < reactions; ++k) column(PlaceOf(nd_ + k), 0) = weights[nd_ + k];
-  factors_.Solve(&column);
-  return column.col(0).head(nd_);
+  if (symmetric_) return Solve(weights).col(0).head(nd_);
+  Eigen::VectorXd with_load = Eigen::VectorXd::Zero(transposed_.rows());
+  with_load << weights.head(nd_), 0.0, weights.tail(weights.size() - nd_);
+  return unsymmetric_.SolveTransposed(with_load).head(nd_);
 }
 
 double HeldStiffness::EnergyAt(Eigen::Index force, const Eigen::VectorXd& du) const {

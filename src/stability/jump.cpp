@@ -1,6 +1,5 @@
 #include "contact_path/stability/jump.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -119,7 +118,6 @@ class Jumper {
         solver_(structure, laws, machine_),
         arc_(structure, laws),
         stability_(structure, laws),
-        work_(structure, laws),
         start_(solver_.AsOfArc(from)),
         extent_(ExtentOf(structure, from.u)),
         diagonal_(DiagonalStiffness(structure, laws, start_)),
@@ -305,7 +303,7 @@ class Jumper {
     Course& course = motion->course;
     const Eigen::VectorXd du = step.point.u - course.now.u;
     const double speed = du.norm() / motion->time;
-    work_.Add(course.now, step, motion->pushed == 0.0, &course.work);
+    AddWork(structure_, laws_, course.now, step, motion->pushed == 0.0, &course.work);
     ++course.steps;
     course.length += Largest(du);
     course.norm += du.norm();
@@ -352,7 +350,7 @@ class Jumper {
     if (!correction.converged || !InequalitiesHold(correction.x)) return;
     MotionStep last = *step;
     last.point = system.Unpack(correction.x);
-    work_.Add(at, last, false, &course->work);
+    AddWork(structure_, laws_, at, last, false, &course->work);
     course->now = last.point;
     Landing landing;
     landing.point = last.point;
@@ -384,7 +382,6 @@ class Jumper {
   MotionStepSolver solver_;
   ModeArc arc_;
   StabilityProblem stability_;
-  WorkOfMotion work_;
   const PathPoint start_;
   const double extent_;
   const Eigen::VectorXd diagonal_;  // of the stiffness at the start

@@ -17,27 +17,12 @@ double RatioOf(const Law& law, std::size_t p) {
   return largest;
 }
 
-}  // namespace
-
-void WorkOfMotion::Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work) const {
+// The work of a port of the law i.
+double OfPort(const Laws& laws, std::size_t i, std::size_t p, const PathPoint& from, const MotionStep& step,
+              bool impact, Work* work) {
+  const Law& law = laws[i];
   const PathPoint& to = step.point;
-  bool impact = pushed;
-  for (std::size_t i = 0; i < laws_.size(); ++i)
-    impact = impact || step.acts_after[i] != 0.0 ||
-             (!laws_[i].In(from.modes[i]).idle && laws_[i].ChangesPiece(from.modes[i].piece, to.modes[i].piece));
-  for (std::size_t i = 0; i < laws_.size(); ++i)
-    for (std::size_t p = 1; p < laws_[i].NumPorts(); ++p)
-      if (laws_[i].LargestRatio() > 0.0) work->dissipation += OfPort(i, p, from, step, impact, work);
-  work->after_impact = impact;
-  const Eigen::VectorXd du = to.u - from.u;
-  work->loads += 0.5 * (from.s + to.s) * structure_.ReferenceLoad().dot(du) + structure_.ConstantLoad().dot(du);
-}
-
-double WorkOfMotion::OfPort(std::size_t i, std::size_t p, const PathPoint& from, const MotionStep& step, bool impact,
-                            Work* work) const {
-  const Law& law = laws_[i];
-  const PathPoint& to = step.point;
-  const Eigen::Index leads = laws_.FirstPort(i), follows = leads + static_cast<Eigen::Index>(p);
+  const Eigen::Index leads = laws.FirstPort(i), follows = leads + static_cast<Eigen::Index>(p);
   const StateRule &was = law.In(from.modes[i]), &is = law.In(to.modes[i]);
   const double ratio = RatioOf(law, p);
   const auto travel = [&] {
@@ -81,6 +66,23 @@ double WorkOfMotion::OfPort(std::size_t i, std::size_t p, const PathPoint& from,
   // It slides until nothing presses it: as far as its force falls on as it has fallen.
   const double length = std::abs(travel());
   return 0.5 * force * (slide.slope > 0.0 ? std::min(length, force / slide.slope) : length);
+}
+
+}  // namespace
+
+void AddWork(const Structure& structure, const Laws& laws, const PathPoint& from, const MotionStep& step, bool pushed,
+             Work* work) {
+  const PathPoint& to = step.point;
+  bool impact = pushed;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    impact = impact || step.acts_after[i] != 0.0 ||
+             (!laws[i].In(from.modes[i]).idle && laws[i].ChangesPiece(from.modes[i].piece, to.modes[i].piece));
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    for (std::size_t p = 1; p < laws[i].NumPorts(); ++p)
+      if (laws[i].LargestRatio() > 0.0) work->dissipation += OfPort(laws, i, p, from, step, impact, work);
+  work->after_impact = impact;
+  const Eigen::VectorXd du = to.u - from.u;
+  work->loads += 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du);
 }
 
 }  // namespace contact_path

@@ -31,23 +31,11 @@ struct Work {
   bool after_impact = false;
 };
 
-// Of what slides by a parabola through the force at the ends of two steps, of loads, which are linear, by the
-// trapezoidal rule. What moves with s does no work: the setting rests, and a machine drives nothing but loads.
-class WorkOfMotion {
- public:
-  // Both must outlive the rule.
-  WorkOfMotion(const Structure& structure, const Laws& laws) : structure_(structure), laws_(laws) {}
-
-  // pushed: the step has the disturbance; drag makes reactions of it as of an impact.
-  void Add(const PathPoint& from, const MotionStep& step, bool pushed, Work* work) const;
-
- private:
-  double OfPort(std::size_t i, std::size_t p, const PathPoint& from, const MotionStep& step, bool impact,
-                Work* work) const;
-
-  const Structure& structure_;
-  const Laws& laws_;
-};
+// Adds the work of a step. Of what slides by a parabola through the force at the ends of two steps, of loads, which are
+// linear, by the trapezoidal rule. What moves with s does no work: the setting rests, and a machine drives nothing but
+// loads. pushed: the step has the disturbance; drag makes reactions of it as of an impact.
+void AddWork(const Structure& structure, const Laws& laws, const PathPoint& from, const MotionStep& step, bool pushed,
+             Work* work);
 
 }  // namespace contact_path
 

@@ -1,9 +1,6 @@
 #include "stability/motion_step.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 #include "contact_path/equations/newton_loop.h"
 #include "contact_path/tolerances.h"
@@ -40,7 +37,7 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
   step.acts_after.assign(laws_.size(), 0.0);
   Eigen::VectorXd references = laws_.ReferencesAt(from);
   PathPoint trial = from;
-  for (; step.rounds < kMostRounds; ++step.rounds) {
+  for (int round = 0; round < kMostRounds; ++round) {
     system_.SetModes(trial.modes, references);
     Eigen::VectorXd x = system_.Pack(trial);
     if (!Newton(drag, anchor, &x, &step.iterations)) return std::nullopt;

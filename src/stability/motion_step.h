@@ -29,7 +29,6 @@ struct MachineEquation {
 struct MotionStep {
   PathPoint point;       // the end
   int iterations = 0;    // of Newton's method, with the last states
-  int rounds = 0;        // of the active set
   bool changed = false;  // other states than at the start
   // By law: the share of the motion of its other ports after which it acts, where it was idle; else 0.
   std::vector<double> acts_after;

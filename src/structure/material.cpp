@@ -14,10 +14,8 @@ double NeoHookeanThickness(const Lame& lame, double area) {
   const auto value = [&](double z) { return lame.mu * std::expm1(z) + lame.lambda * (area + 0.5 * z); };
   // Newton's method comes down to the root from any point above it.
   double z = std::max(0.0, -2.0 * area);
-  if (lame.lambda < 0.0) {
-    z = std::max(z, 0.0);
+  if (lame.lambda < 0.0)
     for (int i = 0; i < kMostIterations && value(z) < 0.0; ++i) z += 1.0;
-  }
   for (int i = 0; i < kMostIterations; ++i) {
     const double slope = lame.mu * std::exp(z) + 0.5 * lame.lambda;
     if (!(slope > 0.0)) return NAN;
@@ -27,22 +25,6 @@ double NeoHookeanThickness(const Lame& lame, double area) {
   }
   return std::abs(value(z)) <= tolerances::kEqual * (lame.mu + std::abs(lame.lambda)) ? z : NAN;
 }
-
-}  // namespace
-
-struct PlaneMaterial::Measures {
-  double p = 0.0, q = 0.0;
-  Gradient p_gradient, q_gradient;
-};
-
-struct PlaneMaterial::Derivatives {
-  double w = 0.0;
-  double p = 0.0, q = 0.0;
-  double pp = 0.0, pq = 0.0, qq = 0.0;
-  double ppp = 0.0, ppq = 0.0, pqq = 0.0, qqq = 0.0;
-};
-
-namespace {
 
 // d2p/dF2
 Eigen::Matrix4d DistortionHessian() {
@@ -60,6 +42,18 @@ Eigen::Matrix4d AreaHessian() {
 }
 
 }  // namespace
+
+struct PlaneMaterial::Measures {
+  double p = 0.0, q = 0.0;
+  Gradient p_gradient, q_gradient;
+};
+
+struct PlaneMaterial::Derivatives {
+  double w = 0.0;
+  double p = 0.0, q = 0.0;
+  double pp = 0.0, pq = 0.0, qq = 0.0;
+  double ppp = 0.0, ppq = 0.0, pqq = 0.0, qqq = 0.0;
+};
 
 PlaneMaterial::PlaneMaterial(const Material& material, PlaneState plane)
     : model_(material.model), plane_(plane), lame_(LameOf(material)), a_(material.a), lambda_in_plane_(lame_.lambda) {

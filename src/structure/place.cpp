@@ -6,6 +6,16 @@
 #include <utility>
 
 namespace contact_path {
+namespace {
+
+// Adds turn border' + border turn' + factor turn turn'.
+void AddTurn(const LawVector& turn, const LawVector& border, double factor, LawMatrix* sum) {
+  *sum += turn * border.transpose();
+  *sum += border * turn.transpose();
+  *sum += factor * turn * turn.transpose();
+}
+
+}  // namespace
 
 LawVector LocalOf(const LawDofs& dofs, const Eigen::Ref<const Eigen::VectorXd>& u, double s) {
   LawVector q(static_cast<Eigen::Index>(dofs.size()) + 1);
@@ -15,45 +25,35 @@ LawVector LocalOf(const LawDofs& dofs, const Eigen::Ref<const Eigen::VectorXd>& 
   return q;
 }
 
-MovingPlace::MovingPlace(const std::vector<const MovingFrame*>& frames) {
+MovingPlace::MovingPlace(const FixedPoint& point) : MovingPlace(nullptr, point, nullptr) {}
+
+MovingPlace MovingPlace::Between(const FixedPoint& from, const FixedPoint& to) { return {&from, to, nullptr}; }
+
+MovingPlace MovingPlace::SeenFrom(const MovingFrame& frame, const FixedPoint& point) {
+  return {nullptr, point, &frame};
+}
+
+MovingPlace::MovingPlace(const FixedPoint* from, const FixedPoint& to, const MovingFrame* seen_from) {
   std::vector<int> dofs;
-  for (const MovingFrame* const frame : frames)
-    for (const Coordinate& of : {frame->origin[0], frame->origin[1], frame->angle})
-      if (of.dof >= 0) dofs.push_back(of.dof);
+  for (const MovingFrame* const frame : {from != nullptr ? &from->frame : nullptr, &to.frame, seen_from})
+    if (frame != nullptr)
+      for (const Coordinate& of : {frame->origin[0], frame->origin[1], frame->angle})
+        if (of.dof >= 0) dofs.push_back(of.dof);
   std::sort(dofs.begin(), dofs.end());
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
   for (const int dof : dofs) dofs_.push_back(dof);
-}
-
-MovingPlace::MovingPlace(const FixedPoint& point) : MovingPlace(std::vector<const MovingFrame*>{&point.frame}) {
-  Term origin = NewTerm();
-  AddOrigin(point.frame, 1.0, &origin);
-  Add(std::move(origin));
-  AddArm(point, 1.0, nullptr);
-}
-
-MovingPlace MovingPlace::Between(const FixedPoint& from, const FixedPoint& to) {
-  MovingPlace place(std::vector<const MovingFrame*>{&from.frame, &to.frame});
-  Term origins = place.NewTerm();
-  place.AddOrigin(from.frame, -1.0, &origins);
-  place.AddOrigin(to.frame, 1.0, &origins);
-  place.Add(std::move(origins));
-  place.AddArm(from, -1.0, nullptr);
-  place.AddArm(to, 1.0, nullptr);
-  return place;
-}
-
-MovingPlace MovingPlace::SeenFrom(const MovingFrame& frame, const FixedPoint& point) {
-  MovingPlace place(std::vector<const MovingFrame*>{&frame, &point.frame});
-  place.constant_ = frame.start;
-  Term origins = place.NewTerm();
-  place.AddOrigin(point.frame, 1.0, &origins);
-  place.AddOrigin(frame, -1.0, &origins);
-  origins.about = frame.about;
-  place.AddAngle(frame.angle, -1.0, &origins);
-  place.Add(std::move(origins));
-  place.AddArm(point, 1.0, &frame);
-  return place;
+  Term origins = NewTerm();
+  AddOrigin(to.frame, 1.0, &origins);
+  if (from != nullptr) AddOrigin(from->frame, -1.0, &origins);
+  if (seen_from != nullptr) {
+    AddOrigin(*seen_from, -1.0, &origins);
+    AddAngle(seen_from->angle, -1.0, &origins);
+    origins.about = seen_from->about;
+    constant_ = seen_from->start;
+  }
+  Add(std::move(origins));
+  if (from != nullptr) AddArm(*from, -1.0, seen_from);
+  AddArm(to, 1.0, seen_from);
 }
 
 MovingPlace::Term MovingPlace::NewTerm() const {
@@ -158,9 +158,7 @@ LawMatrix PlaceAt::Second(const Eigen::Vector2d& weights) const {
   LawMatrix second = LawMatrix::Zero(first.cols(), first.cols());
   for (const auto& [term, rotation, arm] : turned_) {
     const LawVector border = term->motion.transpose() * (rotation[1].transpose() * weights);
-    second += term->turn * border.transpose();
-    second += border * term->turn.transpose();
-    second += weights.dot(rotation[2] * arm) * term->turn * term->turn.transpose();
+    AddTurn(term->turn, border, weights.dot(rotation[2] * arm), &second);
   }
   return second;
 }
@@ -180,10 +178,8 @@ LawMatrix PlaceAt::SecondChange(const Eigen::Vector2d& weights, const LawVector&
   for (const auto& [term, rotation, arm] : turned_) {
     const double by = term->turn.dot(direction);
     const LawVector border = by * (term->motion.transpose() * (rotation[2].transpose() * weights));
-    change += term->turn * border.transpose();
-    change += border * term->turn.transpose();
-    change += weights.dot(by * (rotation[3] * arm) + rotation[2] * (term->motion * direction)) * term->turn *
-              term->turn.transpose();
+    AddTurn(term->turn, border, weights.dot(by * (rotation[3] * arm) + rotation[2] * (term->motion * direction)),
+            &change);
   }
   return change;
 }

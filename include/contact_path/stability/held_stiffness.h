@@ -36,7 +36,7 @@ class HeldStiffness {
   int sign() const { return sign_; }
 
   // By the forces f on u, and by each slip alone: columns of the unknowns. Empty where they are not found.
-  Eigen::MatrixXd Responses(const Eigen::VectorXd& f, const std::vector<Slip>& slips);
+  Eigen::MatrixXd Responses(const Eigen::VectorXd& f, const std::vector<Slip>& slips) const;
   // What the unknowns weighed with `weights` change by, for a unit force on each component of u.
   Eigen::VectorXd Influence(const Eigen::VectorXd& weights) const;
 
@@ -52,6 +52,8 @@ class HeldStiffness {
 
  private:
   Eigen::Index PlaceOf(Eigen::Index force) const { return places_[static_cast<std::size_t>(force - nd_)]; }
+  // The unknowns, columns, for these right sides of the equations.
+  Eigen::MatrixXd Solve(const Eigen::MatrixXd& right) const;
   void BuildSaddle(const Eigen::SparseMatrix<double>& transposed, const Frame* frame, const Eigen::MatrixXd& free);
   // Of each port that is held, whether its force acts along the gradient of its motion.
   bool ForcesActAlongMotions(const Eigen::SparseMatrix<double>& transposed) const;

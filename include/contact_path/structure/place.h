@@ -69,7 +69,8 @@ class MovingPlace {
     Eigen::Matrix2d Rotation(const LawVector& q) const;
   };
 
-  explicit MovingPlace(const std::vector<const MovingFrame*>& frames);
+  // from, seen_from: may be null.
+  MovingPlace(const FixedPoint* from, const FixedPoint& to, const MovingFrame* seen_from);
   Term NewTerm() const;
   // sign times the origin of the frame, or times its angle.
   void AddOrigin(const MovingFrame& frame, double sign, Term* term) const;
