@@ -3,38 +3,39 @@
 
 namespace contact_path {
 
-void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
+Eigen::VectorXd IncrementProblem::Constraints(const Eigen::VectorXd& x) const {
   const Eigen::Index nd = structure_.NumDofs();
   Eigen::VectorXd force(nd);
   structure_.InternalForce(from_.u + goal_.length * x.head(nd), force);
   force -= (from_.s + goal_.length * x[nd]) * structure_.ReferenceLoad() + structure_.ConstantLoad();
   force /= goal_.length;
-  values->resize(num_constraints_);
+  Eigen::VectorXd values(num_constraints_);
   for (const Slot& slot : slots_) {
     const PortsAt at = ScaledKinematics(slot, x);
     for (std::size_t p = 0; p < slot.NumForces(); ++p)
       at.AddForce(at[p].gradient, -x[slot.ForceOf(p)] * at[p].factor, &force);
     if (slot.always) {
       for (std::size_t p = 0; p < slot.NumForces(); ++p)
-        (*values)[slot.gap_row + static_cast<Eigen::Index>(p)] = at[p].motion;
+        values[slot.gap_row + static_cast<Eigen::Index>(p)] = at[p].motion;
       continue;
     }
     const double gap = at[kNormal].motion, rn = x[slot.rn];
-    (*values)[slot.gap_row] = gap;
-    (*values)[slot.gap_row + 1] = gap * rn;
+    values[slot.gap_row] = gap;
+    values[slot.gap_row + 1] = gap * rn;
     if (!slot.Frictional()) continue;
     const double slip = at[kTangent].motion, rt = x[slot.rt], lambda = x[slot.lambda];
     const double mu = slot.pair->Friction();
-    values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
+    values.segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
         lambda * mu * rn + slip * rt;
   }
   for (const Support& support : supports_) {
     const PrescribedDof& prescribed = *support.prescribed;
     force[prescribed.dof] -= x[support.reaction];
-    (*values)[support.row] = (from_.u[prescribed.dof] - prescribed.start - prescribed.rate * from_.s) / goal_.length +
-                             x[prescribed.dof] - prescribed.rate * x[nd];
+    values[support.row] = (from_.u[prescribed.dof] - prescribed.start - prescribed.rate * from_.s) / goal_.length +
+                          x[prescribed.dof] - prescribed.rate * x[nd];
   }
-  values->head(nd) = force;
+  values.head(nd) = force;
+  return values;
 }
 
 template <typename Visit>
@@ -51,72 +52,71 @@ void IncrementProblem::ForEachVariableOf(const Slot& slot, std::size_t port, Vis
   });
 }
 
-template <typename Emit>
-void IncrementProblem::ForEachGapEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, Emit emit) const {
+void IncrementProblem::AddGap(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                              MatrixEntries* entries) const {
   const double rn = x[slot.rn];
   ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
     const double gradient = at[kNormal].gradient[k];
-    if (variable < structure_.NumDofs()) emit(variable, slot.rn, -at[kNormal].factor * gradient);
-    emit(slot.gap_row, variable, gradient);
-    emit(slot.gap_row + 1, variable, gradient * rn);
+    if (variable < structure_.NumDofs()) entries->emplace_back(variable, slot.rn, -at[kNormal].factor * gradient);
+    entries->emplace_back(slot.gap_row, variable, gradient);
+    entries->emplace_back(slot.gap_row + 1, variable, gradient * rn);
   });
-  emit(slot.gap_row + 1, slot.rn, at[kNormal].motion + slot.compliance[kNormal] * rn);
-  if (slot.compliance[kNormal] > 0.0) emit(slot.gap_row, slot.rn, slot.compliance[kNormal]);
+  entries->emplace_back(slot.gap_row + 1, slot.rn, at[kNormal].motion + slot.compliance[kNormal] * rn);
+  if (slot.compliance[kNormal] > 0.0) entries->emplace_back(slot.gap_row, slot.rn, slot.compliance[kNormal]);
 }
 
-template <typename Emit>
-void IncrementProblem::ForEachHeldEntry(const Slot& slot, const PortsAt& at, Emit emit) const {
+void IncrementProblem::AddHeld(const Slot& slot, const PortsAt& at, MatrixEntries* entries) const {
   for (std::size_t p = 0; p < slot.NumForces(); ++p) {
     const Eigen::Index force = slot.ForceOf(p), row = slot.gap_row + static_cast<Eigen::Index>(p);
     ForEachVariableOf(slot, p, [&](Eigen::Index variable, Eigen::Index k) {
-      if (variable < structure_.NumDofs()) emit(variable, force, -at[p].factor * at[p].gradient[k]);
-      emit(row, variable, at[p].gradient[k]);
+      if (variable < structure_.NumDofs()) entries->emplace_back(variable, force, -at[p].factor * at[p].gradient[k]);
+      entries->emplace_back(row, variable, at[p].gradient[k]);
     });
-    if (slot.compliance[p] > 0.0) emit(row, force, slot.compliance[p]);
+    if (slot.compliance[p] > 0.0) entries->emplace_back(row, force, slot.compliance[p]);
   }
 }
 
-template <typename Emit>
-void IncrementProblem::ForEachFrictionEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
-                                            Emit emit) const {
+void IncrementProblem::AddFriction(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                   MatrixEntries* entries) const {
   const double slip = at[kTangent].motion, rn = x[slot.rn], rt = x[slot.rt], lambda = x[slot.lambda];
   const double mu = slot.pair->Friction(), gives = slot.compliance[kTangent];
   ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
     const double gradient = at[kTangent].gradient[k];
-    if (variable < structure_.NumDofs()) emit(variable, slot.rt, -at[kTangent].factor * gradient);
-    emit(slot.friction_row, variable, -gradient);
-    emit(slot.friction_row + 1, variable, gradient);
-    emit(slot.friction_row + 4, variable, gradient * rt);
+    if (variable < structure_.NumDofs()) entries->emplace_back(variable, slot.rt, -at[kTangent].factor * gradient);
+    entries->emplace_back(slot.friction_row, variable, -gradient);
+    entries->emplace_back(slot.friction_row + 1, variable, gradient);
+    entries->emplace_back(slot.friction_row + 4, variable, gradient * rt);
   });
   if (gives > 0.0) {
-    emit(slot.friction_row, slot.rt, -gives);
-    emit(slot.friction_row + 1, slot.rt, gives);
+    entries->emplace_back(slot.friction_row, slot.rt, -gives);
+    entries->emplace_back(slot.friction_row + 1, slot.rt, gives);
   }
-  emit(slot.friction_row, slot.lambda, 1.0);
-  emit(slot.friction_row + 1, slot.lambda, 1.0);
-  emit(slot.friction_row + 2, slot.rn, mu);
-  emit(slot.friction_row + 2, slot.rt, -1.0);
-  emit(slot.friction_row + 3, slot.rn, mu);
-  emit(slot.friction_row + 3, slot.rt, 1.0);
-  emit(slot.friction_row + 4, slot.lambda, mu * rn);
-  emit(slot.friction_row + 4, slot.rn, mu * lambda);
-  emit(slot.friction_row + 4, slot.rt, slip + gives * rt);
+  entries->emplace_back(slot.friction_row, slot.lambda, 1.0);
+  entries->emplace_back(slot.friction_row + 1, slot.lambda, 1.0);
+  entries->emplace_back(slot.friction_row + 2, slot.rn, mu);
+  entries->emplace_back(slot.friction_row + 2, slot.rt, -1.0);
+  entries->emplace_back(slot.friction_row + 3, slot.rn, mu);
+  entries->emplace_back(slot.friction_row + 3, slot.rt, 1.0);
+  entries->emplace_back(slot.friction_row + 4, slot.lambda, mu * rn);
+  entries->emplace_back(slot.friction_row + 4, slot.rn, mu * lambda);
+  entries->emplace_back(slot.friction_row + 4, slot.rt, slip + gives * rt);
 }
 
-template <typename Emit>
-void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const {
+MatrixEntries IncrementProblem::Jacobian(const Eigen::VectorXd& x) const {
+  MatrixEntries entries;
   const Eigen::Index nd = structure_.NumDofs();
   structure_.Tangent(from_.u + goal_.length * x.head(nd), &tangent_);
   for (Eigen::Index column = 0; column < nd; ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it) emit(it.row(), column, it.value());
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
+      entries.emplace_back(it.row(), column, it.value());
   for (Eigen::Index row = 0; row < nd; ++row)
-    if (structure_.ReferenceLoad()[row] != 0.0) emit(row, nd, -structure_.ReferenceLoad()[row]);
+    if (structure_.ReferenceLoad()[row] != 0.0) entries.emplace_back(row, nd, -structure_.ReferenceLoad()[row]);
   for (const Slot& slot : slots_) {
     const PortsAt at = ScaledKinematics(slot, x);
     if (slot.always)
-      ForEachHeldEntry(slot, at, emit);
+      AddHeld(slot, at, &entries);
     else
-      ForEachGapEntry(slot, at, x, emit);
+      AddGap(slot, at, x, &entries);
     if (slot.law->Curved()) {
       // r_n and r_t over S, and Hessians times S.
       LawMatrix change = (x[slot.rn] * at[kNormal].factor) * at[kNormal].hessian;
@@ -125,54 +125,57 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
         change += x[slot.rt] * at[kTangent].gradient * at[kTangent].factor_gradient.transpose();
       ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
         if (row == nd) return;
-        ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) { emit(row, column, -change(a, b)); });
+        ForEachVariable(slot,
+                        [&](Eigen::Index column, Eigen::Index b) { entries.emplace_back(row, column, -change(a, b)); });
       });
     }
-    if (slot.Frictional()) ForEachFrictionEntry(slot, at, x, emit);
+    if (slot.Frictional()) AddFriction(slot, at, x, &entries);
   }
   for (const Support& support : supports_) {
-    emit(support.prescribed->dof, support.reaction, -1.0);
-    emit(support.row, support.prescribed->dof, 1.0);
-    emit(support.row, nd, -support.prescribed->rate);
+    entries.emplace_back(support.prescribed->dof, support.reaction, -1.0);
+    entries.emplace_back(support.row, support.prescribed->dof, 1.0);
+    entries.emplace_back(support.row, nd, -support.prescribed->rate);
   }
+  return entries;
 }
 
-template <typename Emit>
-void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                                           Emit emit) const {
+MatrixEntries IncrementProblem::Hessian(const Eigen::VectorXd& x, double factor,
+                                        const Eigen::VectorXd& multipliers) const {
+  MatrixEntries entries;
   const Eigen::Index nd = structure_.NumDofs();
   // Second order of the equilibrium rows: S times the derivative of the tangent along their multipliers.
   structure_.TangentDerivative(from_.u + goal_.length * x.head(nd), multipliers.head(nd), &tangent_);
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
       if (it.row() >= column)
-        emit(it.row(), column, goal_.length * it.value() + (it.row() == column ? factor * goal_.gamma2_factor : 0.0));
-  emit(nd, nd, factor * goal_.gamma2_factor);
+        entries.emplace_back(it.row(), column,
+                             goal_.length * it.value() + (it.row() == column ? factor * goal_.gamma2_factor : 0.0));
+  entries.emplace_back(nd, nd, factor * goal_.gamma2_factor);
   for (const Slot& slot : slots_) {
     const PortsAt at = ScaledKinematics(slot, x);
     const PortReals& gives = slot.compliance;
     if (!slot.always) {
       const double gap_product = multipliers[slot.gap_row + 1];
-      if (gives[kNormal] > 0.0) emit(slot.rn, slot.rn, 2.0 * gives[kNormal] * gap_product);
+      if (gives[kNormal] > 0.0) entries.emplace_back(slot.rn, slot.rn, 2.0 * gives[kNormal] * gap_product);
       ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
-        emit(slot.rn, variable, gap_product * at[kNormal].gradient[k]);
+        entries.emplace_back(slot.rn, variable, gap_product * at[kNormal].gradient[k]);
       });
     }
     if (slot.Frictional()) {
       const double slip_product = multipliers[slot.friction_row + 4];
-      if (gives[kTangent] > 0.0) emit(slot.rt, slot.rt, 2.0 * gives[kTangent] * slip_product);
-      emit(slot.lambda, slot.rn, slip_product * slot.pair->Friction());
+      if (gives[kTangent] > 0.0) entries.emplace_back(slot.rt, slot.rt, 2.0 * gives[kTangent] * slip_product);
+      entries.emplace_back(slot.lambda, slot.rn, slip_product * slot.pair->Friction());
       ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
-        emit(slot.rt, variable, slip_product * at[kTangent].gradient[k]);
+        entries.emplace_back(slot.rt, variable, slip_product * at[kTangent].gradient[k]);
       });
     }
-    if (slot.law->Curved()) ForEachCurvatureEntry(slot, at, x, multipliers, emit);
+    if (slot.law->Curved()) AddCurvature(slot, at, x, multipliers, &entries);
   }
+  return entries;
 }
 
-template <typename Emit>
-void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
-                                             const Eigen::VectorXd& multipliers, Emit emit) const {
+void IncrementProblem::AddCurvature(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                    const Eigen::VectorXd& multipliers, MatrixEntries* entries) const {
   const Eigen::Index nd = structure_.NumDofs();
   const Law& law = *slot.law;
   const bool frictional = slot.Frictional(), deformable = slot.pair != nullptr && slot.pair->Deformable();
@@ -182,8 +185,9 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const PortsAt& at
   for (std::size_t p = 0; p < slot.NumForces(); ++p) {
     LawVector by_force = at[p].factor * (at[p].hessian * weights);
     if (at[p].factor_gradient.size() > 0) by_force += at[p].gradient.dot(weights) * at[p].factor_gradient;
-    ForEachVariable(slot,
-                    [&](Eigen::Index variable, Eigen::Index k) { emit(slot.ForceOf(p), variable, -by_force[k]); });
+    ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+      entries->emplace_back(slot.ForceOf(p), variable, -by_force[k]);
+    });
   }
   PortReals along_port = {multipliers[slot.gap_row], slot.always && slot.rt >= 0 ? multipliers[slot.gap_row + 1] : 0.0};
   if (!slot.always) along_port[kNormal] += multipliers[slot.gap_row + 1] * rn;
@@ -202,34 +206,9 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const PortsAt& at
   second = along - goal_.length * goal_.length * second;
   ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
     ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) {
-      if (row >= column) emit(row, column, second(a, b));
+      if (row >= column) entries->emplace_back(row, column, second(a, b));
     });
   });
-}
-
-void IncrementProblem::RecordStructures() {
-  const Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
-  const auto record = [](std::vector<MatrixEntry>* structure_out) {
-    return [structure_out](Eigen::Index row, Eigen::Index column, double) {
-      structure_out->push_back({static_cast<int>(row), static_cast<int>(column)});
-    };
-  };
-  ForEachJacobianEntry(x, record(&jacobian_structure_));
-  ForEachHessianEntry(x, 1.0, Eigen::VectorXd::Zero(num_constraints_), record(&hessian_structure_));
-}
-
-void IncrementProblem::JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
-  values->resize(static_cast<Eigen::Index>(jacobian_structure_.size()));
-  Eigen::Index k = 0;
-  ForEachJacobianEntry(x, [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
-}
-
-void IncrementProblem::HessianValues(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                                     Eigen::VectorXd* values) const {
-  values->resize(static_cast<Eigen::Index>(hessian_structure_.size()));
-  Eigen::Index k = 0;
-  ForEachHessianEntry(x, factor, multipliers,
-                      [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
 }
 
 }  // namespace contact_path

@@ -64,8 +64,6 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   const double norm = drive.norm();
   linear_objective_ = -(norm > 0.0 ? 1.0 - goal_.dissipation : 1.0) * goal_.direction;
   if (norm > 0.0) linear_objective_ += goal_.dissipation / norm * drive;
-
-  RecordStructures();
 }
 
 IncrementProblem::Slot& IncrementProblem::AddSlot(std::size_t number, Eigen::Index rn) {
@@ -141,7 +139,7 @@ int IncrementProblem::PatchOf(const Slot& slot, const Eigen::VectorXd& u, double
 }
 
 Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y, const PathPoint& reactions) const {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_), values;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
   x.head(y.size()) = y;
   for (const Slot& slot : slots_) {
     x[slot.rn] = reactions.forces[slot.port + kNormal] / goal_.length;
@@ -149,7 +147,7 @@ Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y, const 
     x[slot.rt] = reactions.forces[slot.port + kTangent] / goal_.length;
     if (slot.Frictional()) x[slot.lambda] = std::abs(ScaledKinematics(slot, x)[kTangent].motion);
   }
-  Constraints(x, &values);
+  const Eigen::VectorXd values = Constraints(x);
   for (const Support& support : supports_) x[support.reaction] = values[support.prescribed->dof];
   return x;
 }
@@ -195,19 +193,16 @@ std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point,
       x[slots_[i].lambda] += 1.0;  // which is free, but for being far from its bounds
 
   // The equations that hold there, with one row more: the multipliers of (9), and how far to move off.
-  const Eigen::VectorXd lower = ConstraintLowerBounds(), upper = ConstraintUpperBounds();
+  const auto [of_variables, lower, upper] = Bounds();
   Eigen::VectorXi equation = Eigen::VectorXi::Constant(num_constraints_ + num_variables_, -1);
   int equations = 0;
   for (Eigen::Index row = 0; row < num_constraints_; ++row)
     if (lower[row] == upper[row]) equation[row] = equations++;
   for (const Zeros& of : ZerosAt(point, x))
     for (const Zero& zero : of) equation[zero.row] = equations++;
-  Eigen::VectorXd values, gradient;
-  JacobianValues(x, &values);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < jacobian_structure_.size(); ++k)
-    if (const int at = equation[jacobian_structure_[k].row]; at >= 0)
-      entries.emplace_back(jacobian_structure_[k].column, at, values[static_cast<Eigen::Index>(k)]);
+  MatrixEntries entries;
+  for (const auto& entry : Jacobian(x))
+    if (const int at = equation[entry.row()]; at >= 0) entries.emplace_back(entry.col(), at, entry.value());
   for (Eigen::Index variable = 0; variable < num_variables_; ++variable)
     if (const int at = equation[num_constraints_ + variable]; at >= 0) entries.emplace_back(variable, at, 1.0);
   Eigen::SparseMatrix<double> transposed(num_variables_, equations);
@@ -216,14 +211,14 @@ std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point,
   MinimumNormSolver of_rows, of_columns;
   const bool regular = lu.FactorizeRegular(transposed, GenericVector(num_variables_));
   if (!regular && !(of_rows.Factorize(transposed) && of_columns.Factorize(transposed.transpose()))) return std::nullopt;
-  Gradient(x, &gradient);
+  const Eigen::VectorXd gradient = Gradient(x);
   const Eigen::VectorXd own = regular ? lu.SolveTransposed(-gradient) : of_columns.Solve(-gradient);
 
   // Each zero becomes barrier / (product's multiplier x factor - its own), and what that changes to the second order is
   // taken back.
   Eigen::VectorXd off(equations);
   for (int step = 0; step < kCentralSteps; ++step) {
-    Constraints(x, &values);
+    const Eigen::VectorXd values = Constraints(x);
     for (Eigen::Index row = 0; row < equation.size(); ++row)
       if (equation[row] >= 0) off[equation[row]] = -(row < num_constraints_ ? values[row] : x[row - num_constraints_]);
     for (const Zeros& of : ZerosAt(point, x)) {
@@ -241,7 +236,7 @@ std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point,
     x += regular ? lu.Solve(off, 0.0) : of_rows.Solve(off);
   }
 
-  Constraints(x, &values);
+  const Eigen::VectorXd values = Constraints(x);
   const Eigen::VectorXd distance = (values - lower).cwiseMin(upper - values);  // where it is not an equation
   result.multipliers.resize(num_constraints_);
   for (Eigen::Index row = 0; row < num_constraints_; ++row) {
@@ -300,32 +295,21 @@ Eigen::VectorXd IncrementProblem::UnconstrainedMinimiser() const {
   return minimiser;
 }
 
-Eigen::VectorXd IncrementProblem::VariableLowerBounds() const {
-  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(num_variables_, -INFINITY);
-  for (const Slot& slot : slots_)
-    if (!slot.always) bounds[slot.rn] = 0.0;
-  return bounds;
-}
-
-Eigen::VectorXd IncrementProblem::ConstraintLowerBounds() const {
-  Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
+ProgramBounds IncrementProblem::Bounds() const {
+  ProgramBounds bounds;
+  bounds.variables.setConstant(num_variables_, -INFINITY);
+  bounds.lower.setZero(num_constraints_);
+  bounds.upper.setZero(num_constraints_);
   for (const Slot& slot : slots_) {
     if (slot.always) continue;
-    bounds[slot.gap_row + 1] = -INFINITY;
-    if (slot.friction_row >= 0) bounds[slot.friction_row + 4] = -INFINITY;
-  }
-  return bounds;
-}
-
-Eigen::VectorXd IncrementProblem::ConstraintUpperBounds() const {
-  Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
-  for (const Slot& slot : slots_) {
-    if (slot.always) continue;
-    bounds[slot.gap_row] = INFINITY;
-    bounds[slot.gap_row + 1] = eps_;
-    if (slot.friction_row < 0) continue;
-    bounds.segment<4>(slot.friction_row).setConstant(INFINITY);
-    bounds[slot.friction_row + 4] = eps_;
+    bounds.variables[slot.rn] = 0.0;
+    bounds.upper[slot.gap_row] = INFINITY;
+    bounds.lower[slot.gap_row + 1] = -INFINITY;
+    bounds.upper[slot.gap_row + 1] = eps_;
+    if (!slot.Frictional()) continue;
+    bounds.upper.segment<4>(slot.friction_row).setConstant(INFINITY);
+    bounds.lower[slot.friction_row + 4] = -INFINITY;
+    bounds.upper[slot.friction_row + 4] = eps_;
   }
   return bounds;
 }
@@ -335,9 +319,11 @@ double IncrementProblem::Objective(const Eigen::VectorXd& x) const {
   return linear_objective_.dot(y) + 0.5 * goal_.gamma2_factor * y.squaredNorm();
 }
 
-void IncrementProblem::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const {
-  gradient->setZero(num_variables_);
-  gradient->head(linear_objective_.size()) = linear_objective_ + goal_.gamma2_factor * x.head(linear_objective_.size());
+Eigen::VectorXd IncrementProblem::Gradient(const Eigen::VectorXd& x) const {
+  const Eigen::Index size = linear_objective_.size();
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_variables_);
+  gradient.head(size) = linear_objective_ + goal_.gamma2_factor * x.head(size);
+  return gradient;
 }
 
 }  // namespace contact_path

@@ -34,20 +34,21 @@ class Adapter : public Ipopt::TNLP {
                     IndexStyleEnum& index_style) override {
     n = static_cast<Ipopt::Index>(program_.NumVariables());
     m = static_cast<Ipopt::Index>(program_.NumConstraints());
-    nnz_jac = static_cast<Ipopt::Index>(program_.JacobianStructure().size());
-    nnz_hessian = static_cast<Ipopt::Index>(program_.HessianStructure().size());
+    jacobian_ = program_.Jacobian(point_->x);
+    hessian_ = program_.Hessian(point_->x, 1.0, Eigen::VectorXd::Zero(program_.NumConstraints()));
+    nnz_jac = static_cast<Ipopt::Index>(jacobian_.size());
+    nnz_hessian = static_cast<Ipopt::Index>(hessian_.size());
     index_style = C_STYLE;
     return true;
   }
 
   bool get_bounds_info(Ipopt::Index n, Number* lower, Number* upper, Ipopt::Index m, Number* g_lower,
                        Number* g_upper) override {
-    const Eigen::VectorXd x_lower = program_.VariableLowerBounds();
-    const Eigen::VectorXd c_lower = program_.ConstraintLowerBounds(), c_upper = program_.ConstraintUpperBounds();
-    std::transform(x_lower.data(), x_lower.data() + n, lower, Bound);
+    const ProgramBounds bounds = program_.Bounds();
+    std::transform(bounds.variables.data(), bounds.variables.data() + n, lower, Bound);
     std::fill_n(upper, n, kIpoptInfinity);
-    std::transform(c_lower.data(), c_lower.data() + m, g_lower, Bound);
-    std::transform(c_upper.data(), c_upper.data() + m, g_upper, Bound);
+    std::transform(bounds.lower.data(), bounds.lower.data() + m, g_lower, Bound);
+    std::transform(bounds.upper.data(), bounds.upper.data() + m, g_upper, Bound);
     return true;
   }
 
@@ -66,34 +67,29 @@ class Adapter : public Ipopt::TNLP {
     return true;
   }
 
-  bool eval_f(Ipopt::Index n, const Number* x, bool new_x, Number& value) override {
-    value = program_.Objective(Point(n, x, new_x));
+  bool eval_f(Ipopt::Index n, const Number* x, bool, Number& value) override {
+    value = program_.Objective(Copy(x, n));
     return std::isfinite(value);
   }
 
-  bool eval_grad_f(Ipopt::Index n, const Number* x, bool new_x, Number* gradient) override {
-    program_.Gradient(Point(n, x, new_x), &values_);
-    return Give(gradient);
+  bool eval_grad_f(Ipopt::Index n, const Number* x, bool, Number* gradient) override {
+    return Give(program_.Gradient(Copy(x, n)), gradient);
   }
 
-  bool eval_g(Ipopt::Index n, const Number* x, bool new_x, Ipopt::Index, Number* g) override {
-    program_.Constraints(Point(n, x, new_x), &values_);
-    return Give(g);
+  bool eval_g(Ipopt::Index n, const Number* x, bool, Ipopt::Index, Number* g) override {
+    return Give(program_.Constraints(Copy(x, n)), g);
   }
 
-  bool eval_jac_g(Ipopt::Index n, const Number* x, bool new_x, Ipopt::Index, Ipopt::Index, Ipopt::Index* rows,
+  bool eval_jac_g(Ipopt::Index n, const Number* x, bool, Ipopt::Index, Ipopt::Index, Ipopt::Index* rows,
                   Ipopt::Index* columns, Number* values) override {
-    if (values == nullptr) return GiveStructure(program_.JacobianStructure(), rows, columns);
-    program_.JacobianValues(Point(n, x, new_x), &values_);
-    return Give(values);
+    if (values != nullptr) jacobian_ = program_.Jacobian(Copy(x, n));
+    return Give(jacobian_, rows, columns, values);
   }
 
-  bool eval_h(Ipopt::Index n, const Number* x, bool new_x, Number factor, Ipopt::Index m, const Number* lambda, bool,
+  bool eval_h(Ipopt::Index n, const Number* x, bool, Number factor, Ipopt::Index m, const Number* lambda, bool,
               Ipopt::Index, Ipopt::Index* rows, Ipopt::Index* columns, Number* values) override {
-    if (values == nullptr) return GiveStructure(program_.HessianStructure(), rows, columns);
-    multipliers_ = Eigen::Map<const Eigen::VectorXd>(lambda, m);
-    program_.HessianValues(Point(n, x, new_x), factor, multipliers_, &values_);
-    return Give(values);
+    if (values != nullptr) hessian_ = program_.Hessian(Copy(x, n), factor, Copy(lambda, m));
+    return Give(hessian_, rows, columns, values);
   }
 
   bool intermediate_callback(Ipopt::AlgorithmMode, Ipopt::Index iteration, Number, Number, Number, Number, Number,
@@ -107,26 +103,29 @@ class Adapter : public Ipopt::TNLP {
   void finalize_solution(Ipopt::SolverReturn, Ipopt::Index n, const Number* x, const Number* z_lower, const Number*,
                          Ipopt::Index m, const Number*, const Number* lambda, Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    point_->x = Eigen::Map<const Eigen::VectorXd>(x, n);
-    point_->lower_multipliers = Eigen::Map<const Eigen::VectorXd>(z_lower, n);
-    point_->multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m);
+    *point_ = {Copy(x, n), Copy(lambda, m), Copy(z_lower, n)};
   }
 
  private:
-  const Eigen::VectorXd& Point(Ipopt::Index n, const Number* x, bool) {
-    x_ = Eigen::Map<const Eigen::VectorXd>(x, n);
-    return x_;
+  static Eigen::VectorXd Copy(const Number* numbers, Ipopt::Index count) {
+    return Eigen::Map<const Eigen::VectorXd>(numbers, count);
   }
-  bool Give(Number* out) const {
-    std::copy_n(values_.data(), values_.size(), out);
-    return values_.allFinite();
+  static bool Give(const Eigen::VectorXd& values, Number* out) {
+    std::copy_n(values.data(), values.size(), out);
+    return values.allFinite();
   }
-  static bool GiveStructure(const std::vector<MatrixEntry>& entries, Ipopt::Index* rows, Ipopt::Index* columns) {
-    for (const MatrixEntry& entry : entries) {
-      *rows++ = entry.row;
-      *columns++ = entry.column;
+  // values: null where Ipopt asks for the places.
+  static bool Give(const MatrixEntries& entries, Ipopt::Index* rows, Ipopt::Index* columns, Number* values) {
+    bool finite = true;
+    for (const auto& entry : entries) {
+      if (values == nullptr) {
+        *rows++ = static_cast<Ipopt::Index>(entry.row());
+        *columns++ = static_cast<Ipopt::Index>(entry.col());
+      } else {
+        finite = std::isfinite(*values++ = entry.value()) && finite;
+      }
     }
-    return true;
+    return finite;
   }
 
   const NonlinearProgram& program_;
@@ -135,7 +134,7 @@ class Adapter : public Ipopt::TNLP {
   PrimalDual* point_;
   bool was_cancelled_ = false;
   int iterations_ = 0;
-  Eigen::VectorXd x_, values_, multipliers_;
+  MatrixEntries jacobian_, hessian_;  // of the last point
 };
 
 }  // namespace

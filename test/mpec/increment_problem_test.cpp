@@ -31,40 +31,18 @@ namespace {
 constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Eigen::VectorXd ConstraintsOf(const IncrementProblem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd values;
-  problem.Constraints(x, &values);
-  return values;
-}
-
-Eigen::VectorXd GradientOf(const IncrementProblem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd values;
-  problem.Gradient(x, &values);
-  return values;
-}
-
 Eigen::MatrixXd JacobianOf(const IncrementProblem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd values;
-  problem.JacobianValues(x, &values);
-  EXPECT_EQ(static_cast<std::size_t>(values.size()), problem.JacobianStructure().size());
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(problem.NumConstraints(), problem.NumVariables());
-  for (std::size_t k = 0; k < problem.JacobianStructure().size(); ++k) {
-    const MatrixEntry& entry = problem.JacobianStructure()[k];
-    jacobian(entry.row, entry.column) += values[static_cast<Eigen::Index>(k)];
-  }
+  for (const auto& entry : problem.Jacobian(x)) jacobian(entry.row(), entry.col()) += entry.value();
   return jacobian;
 }
 
 Eigen::MatrixXd HessianOf(const IncrementProblem& problem, const Eigen::VectorXd& x, double factor,
                           const Eigen::VectorXd& multipliers) {
-  Eigen::VectorXd values;
-  problem.HessianValues(x, factor, multipliers, &values);
-  EXPECT_EQ(static_cast<std::size_t>(values.size()), problem.HessianStructure().size());
   Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(problem.NumVariables(), problem.NumVariables());
-  for (std::size_t k = 0; k < problem.HessianStructure().size(); ++k) {
-    const MatrixEntry& entry = problem.HessianStructure()[k];
-    EXPECT_GE(entry.row, entry.column);
-    lower(entry.row, entry.column) += values[static_cast<Eigen::Index>(k)];
+  for (const auto& entry : problem.Hessian(x, factor, multipliers)) {
+    EXPECT_GE(entry.row(), entry.col());
+    lower(entry.row(), entry.col()) += entry.value();
   }
   return lower.selfadjointView<Eigen::Lower>();
 }
@@ -72,17 +50,19 @@ Eigen::MatrixXd HessianOf(const IncrementProblem& problem, const Eigen::VectorXd
 // At x, with these multipliers: Jacobian and Hessian are those of what they derive.
 void ExpectDerivatives(const IncrementProblem& problem, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
                        double step = kDifferenceStep) {
-  const auto constraints = [&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); };
+  const auto constraints = [&](const Eigen::VectorXd& at) { return problem.Constraints(at); };
   const auto gradient = [&](const Eigen::VectorXd& at) {
-    return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+    return Eigen::VectorXd(0.8 * problem.Gradient(at) + JacobianOf(problem, at).transpose() * multipliers);
   };
   EXPECT_TRUE(IsJacobian(constraints, x, JacobianOf(problem, x), kDerivativeTolerance, step));
   EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers), kDerivativeTolerance, step));
 }
 
-std::set<std::pair<int, int>> Places(const std::vector<MatrixEntry>& entries) {
-  std::set<std::pair<int, int>> places;
-  for (const MatrixEntry& entry : entries) places.emplace(entry.row, entry.column);
+using Places = std::set<std::pair<Eigen::Index, Eigen::Index>>;
+
+Places PlacesOf(const MatrixEntries& entries) {
+  Places places;
+  for (const auto& entry : entries) places.emplace(entry.row(), entry.col());
   return places;
 }
 
@@ -127,7 +107,7 @@ TEST_P(MixedProblem, GradientMeetsDifferences) {
     const auto objective = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, problem.Objective(at));
     };
-    EXPECT_TRUE(IsJacobian(objective, x, GradientOf(problem, x).transpose()));
+    EXPECT_TRUE(IsJacobian(objective, x, problem.Gradient(x).transpose()));
   }
 }
 
@@ -135,7 +115,7 @@ TEST_P(MixedProblem, JacobianMeetsDifferences) {
   const IncrementProblem problem = Problem();
   for (int i = 0; i < 3; ++i) {
     const Eigen::VectorXd x = RandomVariables(problem);
-    const auto constraints = [&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); };
+    const auto constraints = [&](const Eigen::VectorXd& at) { return problem.Constraints(at); };
     EXPECT_TRUE(IsJacobian(constraints, x, JacobianOf(problem, x)));
   }
 }
@@ -147,7 +127,7 @@ TEST_P(MixedProblem, HessianMeetsDifferences) {
     const Eigen::VectorXd multipliers = random_.Vector(problem.NumConstraints(), -1.0, 1.0);
     for (const double factor : {0.0, 0.8}) {
       const auto gradient = [&](const Eigen::VectorXd& at) {
-        return Eigen::VectorXd(factor * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+        return Eigen::VectorXd(factor * problem.Gradient(at) + JacobianOf(problem, at).transpose() * multipliers);
       };
       EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, factor, multipliers)));
     }
@@ -158,20 +138,20 @@ TEST_P(MixedProblem, StructuresHoldEveryEntryThatCanBeOtherThanZeroAndNoOther) {
   const IncrementProblem problem = Problem();
   const Eigen::VectorXd x = RandomVariables(problem);
   const Eigen::VectorXd multipliers = random_.Vector(problem.NumConstraints(), 0.1, 1.0);
-  const auto constraints = [&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); };
+  const auto constraints = [&](const Eigen::VectorXd& at) { return problem.Constraints(at); };
   const Eigen::MatrixXd jacobian = DifferenceJacobian(constraints, x);
   const auto gradient = [&](const Eigen::VectorXd& at) {
-    return Eigen::VectorXd(GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+    return Eigen::VectorXd(problem.Gradient(at) + JacobianOf(problem, at).transpose() * multipliers);
   };
   const Eigen::MatrixXd hessian = DifferenceJacobian(gradient, x);
 
   // Differences of what does not depend on a variable are exactly zero or rounding.
   const double noise = 1e-10;
-  const std::set<std::pair<int, int>> in_jacobian = Places(problem.JacobianStructure());
+  const Places in_jacobian = PlacesOf(problem.Jacobian(x));
   for (int i = 0; i < jacobian.rows(); ++i)
     for (int j = 0; j < jacobian.cols(); ++j)
       EXPECT_EQ(in_jacobian.count({i, j}) > 0, std::abs(jacobian(i, j)) > noise) << i << ", " << j;
-  const std::set<std::pair<int, int>> in_hessian = Places(problem.HessianStructure());
+  const Places in_hessian = PlacesOf(problem.Hessian(x, 1.0, multipliers));
   for (int i = 0; i < hessian.rows(); ++i)
     for (int j = 0; j <= i; ++j)
       EXPECT_EQ(in_hessian.count({i, j}) > 0, std::abs(hessian(i, j)) > noise) << i << ", " << j;
@@ -204,7 +184,7 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   for (const PrescribedDof& prescribed : structure.PrescribedDofs())
     still.u[prescribed.dof] = prescribed.start + prescribed.rate * still.s;
   const IncrementProblem rest(structure, contacts, laws, still, {}, {0.2, Eigen::VectorXd::Unit(9, 8), 0.0, 1.0});
-  const Eigen::VectorXd values = ConstraintsOf(rest, rest.StartingPoint(Eigen::VectorXd::Zero(9)));
+  const Eigen::VectorXd values = rest.Constraints(rest.StartingPoint(Eigen::VectorXd::Zero(9)));
   for (const PrescribedDof& prescribed : structure.PrescribedDofs())
     EXPECT_NEAR(values[prescribed.dof], 0.0, kRounding);
   EXPECT_LE(values.tail<2>().lpNorm<Eigen::Infinity>(), kRounding);
@@ -231,7 +211,7 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
     ExpectDerivatives(problem, x, random.Vector(problem.NumConstraints(), -1.0, 1.0), kStep);
   }
   // Slip and gaps are those of the point that the variables stand for.
-  const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0), values = ConstraintsOf(problem, x);
+  const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0), values = problem.Constraints(x);
   const PathPoint point = problem.Point(x);
   EXPECT_NEAR(values[8], contacts[0]->Gap(point.u, point.s, 0) / 0.05, 1e-12);
 }
@@ -350,8 +330,8 @@ TEST_F(GivingProblem, DerivativesMeetDifferences) {
 TEST_F(GivingProblem, StandingStillKeepsWhatGivesWay) {
   const IncrementProblem problem(*structure_, contacts_, laws_, from_, {0, 1, 2, 3},
                                  {0.05, Eigen::VectorXd::Unit(5, 4), 0.3, 1.7});
-  const Eigen::VectorXd start = problem.StartingPoint(Eigen::VectorXd::Zero(5)), values = ConstraintsOf(problem, start);
-  const Eigen::VectorXd lower = problem.ConstraintLowerBounds(), upper = problem.ConstraintUpperBounds();
+  const Eigen::VectorXd start = problem.StartingPoint(Eigen::VectorXd::Zero(5)), values = problem.Constraints(start);
+  const auto [of_variables, lower, upper] = problem.Bounds();
   for (const Eigen::Index row : {4, 11}) {  // gap, gap r_n, lambda -+ slip of both contacts
     EXPECT_NEAR(values[row], 0.0, 10.0 * kRounding);
     EXPECT_NEAR(values[row + 2], 0.0, 10.0 * kRounding);
@@ -360,7 +340,7 @@ TEST_F(GivingProblem, StandingStillKeepsWhatGivesWay) {
   for (Eigen::Index row = 18; row < 22; ++row) EXPECT_TRUE(lower[row] == 0.0 && upper[row] == 0.0) << row;
   const double tip = 0.3 * std::cos(0.4) + 0.4 * std::sin(0.4);            // turned by what is the unknown 2
   EXPECT_NEAR(values[18], (tip - 0.4 - 0.1 + 0.25 * -0.3) / 0.05, 1e-12);  // x_1 - x_2 - (X_1 - X_2) + c r
-  EXPECT_EQ((problem.VariableLowerBounds().array() == 0.0).count(), 2);
+  EXPECT_EQ((of_variables.array() == 0.0).count(), 2);
   const PathPoint point = problem.Point(start);
   EXPECT_LE((point.forces - from_.forces).lpNorm<Eigen::Infinity>(), kRounding);
   EXPECT_EQ(point.modes[2].state, 0);
@@ -368,8 +348,11 @@ TEST_F(GivingProblem, StandingStillKeepsWhatGivesWay) {
 
 TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {
   const IncrementProblem problem = Problem();
-  EXPECT_EQ(Places(problem.JacobianStructure()).size(), problem.JacobianStructure().size());
-  EXPECT_EQ(Places(problem.HessianStructure()).size(), problem.HessianStructure().size());
+  const Eigen::VectorXd x = RandomVariables(problem);
+  const MatrixEntries jacobian = problem.Jacobian(x);
+  const MatrixEntries hessian = problem.Hessian(x, 1.0, random_.Vector(problem.NumConstraints(), 0.1, 1.0));
+  EXPECT_EQ(PlacesOf(jacobian).size(), jacobian.size());
+  EXPECT_EQ(PlacesOf(hessian).size(), hessian.size());
 }
 
 TEST_P(MixedProblem, CountsVariablesAndConstraints) {
@@ -382,9 +365,9 @@ TEST_P(MixedProblem, CountsVariablesAndConstraints) {
   }
   EXPECT_EQ(problem.NumVariables(), variables);
   EXPECT_EQ(problem.NumConstraints(), constraints);
-  EXPECT_EQ(problem.VariableLowerBounds().size(), variables);
-  EXPECT_EQ(problem.ConstraintLowerBounds().size(), constraints);
-  EXPECT_EQ(problem.ConstraintUpperBounds().size(), constraints);
+  EXPECT_EQ(problem.Bounds().variables.size(), variables);
+  EXPECT_EQ(problem.Bounds().lower.size(), constraints);
+  EXPECT_EQ(problem.Bounds().upper.size(), constraints);
 }
 
 TEST_P(MixedProblem, RegularisationRelaxesOneProductAFrictionlessAndTwoAFrictionalContact) {
@@ -392,20 +375,20 @@ TEST_P(MixedProblem, RegularisationRelaxesOneProductAFrictionlessAndTwoAFriction
   Eigen::Index products = 0;
   for (const int contact : GetParam()) products += contact != 1 && contact != 5 ? 2 : 1;
   problem.SetRegularisation(0.125);
-  EXPECT_EQ((problem.ConstraintUpperBounds().array() == 0.125).count(), products);
+  EXPECT_EQ((problem.Bounds().upper.array() == 0.125).count(), products);
   problem.SetRegularisation(0.0);
-  EXPECT_EQ((problem.ConstraintUpperBounds().array() == 0.125).count(), 0);
+  EXPECT_EQ((problem.Bounds().upper.array() == 0.125).count(), 0);
   // Products are bounded above only, inequalities below only, equilibrium is an equation.
-  const Eigen::VectorXd lower = problem.ConstraintLowerBounds(), upper = problem.ConstraintUpperBounds();
+  const auto [of_variables, lower, upper] = problem.Bounds();
   EXPECT_EQ((lower.array() == -kInfinity).count(), products);
   EXPECT_EQ(((lower.array() == 0.0) && (upper.array() == 0.0)).count(), structure_.NumDofs());
-  EXPECT_EQ((problem.VariableLowerBounds().array() == 0.0).count(), static_cast<Eigen::Index>(GetParam().size()));
+  EXPECT_EQ((of_variables.array() == 0.0).count(), static_cast<Eigen::Index>(GetParam().size()));
 }
 
 TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   const IncrementProblem problem = Problem();
   const Eigen::VectorXd start = problem.StartingPoint(Eigen::VectorXd::Zero(7));
-  const Eigen::VectorXd values = ConstraintsOf(problem, start);
+  const Eigen::VectorXd values = problem.Constraints(start);
   // lambda = du_t = 0: of each frictional contact's five rows, only the cone is other than zero.
   Eigen::Index row = 6;
   for (const int contact : GetParam()) {
@@ -436,8 +419,8 @@ TEST_P(MixedProblem, UnconstrainedMinimiserIsNoFartherThanWanted) {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(problem.NumVariables());
     x.head(6) = (minimiser.head(6) - from_.u) / goal_.length;
     x[6] = (minimiser[6] - from_.s) / goal_.length;
-    EXPECT_LE(GradientOf(problem, x).norm(), kRounding);
-    EXPECT_GT(GradientOf(problem, 1.1 * x).norm(), 1e-3);
+    EXPECT_LE(problem.Gradient(x).norm(), kRounding);
+    EXPECT_GT(problem.Gradient(1.1 * x).norm(), 1e-3);
     EXPECT_LE(x.norm(), 1.0 + kRounding);
     EXPECT_LT(problem.Objective(x), problem.Objective(1.1 * x));
     EXPECT_LT(problem.Objective(x), problem.Objective(0.9 * x));

@@ -37,7 +37,7 @@ class FakeSolver : public NonlinearSolver {
   explicit FakeSolver(Behaviour behaviour) : behaviour_(std::move(behaviour)) {}
   SolveOutcome Solve(const NonlinearProgram& program, double barrier, PrimalDual* point) override {
     double eps = 0.0;
-    const Eigen::VectorXd upper = program.ConstraintUpperBounds();
+    const Eigen::VectorXd upper = program.Bounds().upper;
     for (Eigen::Index i = 0; i < upper.size(); ++i)
       if (upper[i] < kInfinity) eps = std::max(eps, upper[i]);
     calls_.push_back({program.NumVariables(), program.NumConstraints(), eps, barrier, point->multipliers.size() > 0});

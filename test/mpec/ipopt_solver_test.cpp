@@ -23,67 +23,51 @@ class Hs071 : public NonlinearProgram {
  public:
   Eigen::Index NumVariables() const override { return 4; }
   Eigen::Index NumConstraints() const override { return 6; }
-  Eigen::VectorXd VariableLowerBounds() const override { return Eigen::VectorXd::Ones(4); }
-  Eigen::VectorXd ConstraintLowerBounds() const override {
-    Eigen::VectorXd lower = Eigen::VectorXd::Constant(6, -kInfinity);
-    lower.head<2>() << 25.0, sum_of_squares_;
-    return lower;
-  }
-  Eigen::VectorXd ConstraintUpperBounds() const override {
-    Eigen::VectorXd upper = Eigen::VectorXd::Constant(6, 5.0);
-    upper.head<2>() << kInfinity, sum_of_squares_;
-    return upper;
+  ProgramBounds Bounds() const override {
+    ProgramBounds bounds = {Eigen::VectorXd::Ones(4), Eigen::VectorXd::Constant(6, -kInfinity),
+                            Eigen::VectorXd::Constant(6, 5.0)};
+    bounds.lower.head<2>() << 25.0, sum_of_squares_;
+    bounds.upper.head<2>() << kInfinity, sum_of_squares_;
+    return bounds;
   }
 
   double Objective(const Eigen::VectorXd& x) const override { return x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2]; }
-  void Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const override {
-    gradient->resize(4);
-    *gradient << x[3] * (2.0 * x[0] + x[1] + x[2]), x[0] * x[3], x[0] * x[3] + 1.0, x[0] * (x[0] + x[1] + x[2]);
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& x) const override {
+    return Eigen::Vector4d(x[3] * (2.0 * x[0] + x[1] + x[2]), x[0] * x[3], x[0] * x[3] + 1.0,
+                           x[0] * (x[0] + x[1] + x[2]));
   }
-  void Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const override {
-    values->resize(6);
-    *values << x.prod() + poison_, x.squaredNorm(), x;
+  Eigen::VectorXd Constraints(const Eigen::VectorXd& x) const override {
+    Eigen::VectorXd values(6);
+    values << x.prod() + poison_, x.squaredNorm(), x;
+    return values;
   }
-  const std::vector<MatrixEntry>& JacobianStructure() const override { return jacobian_; }
-  void JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const override {
-    values->resize(12);
+  MatrixEntries Jacobian(const Eigen::VectorXd& x) const override {
+    MatrixEntries entries;
     for (Eigen::Index j = 0; j < 4; ++j) {
-      (*values)[j] = x.prod() / x[j];
-      (*values)[4 + j] = 2.0 * x[j];
-      (*values)[8 + j] = 1.0;
+      entries.emplace_back(0, j, x.prod() / x[j]);
+      entries.emplace_back(1, j, 2.0 * x[j]);
+      entries.emplace_back(2 + j, j, 1.0);
     }
+    return entries;
   }
-  const std::vector<MatrixEntry>& HessianStructure() const override { return hessian_; }
-  void HessianValues(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                     Eigen::VectorXd* values) const override {
+  MatrixEntries Hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers) const override {
     const double m0 = multipliers[0], m1 = multipliers[1];
-    values->resize(10);
-    *values << factor * 2.0 * x[3] + 2.0 * m1,                                         // 0 0
-        factor * x[3] + m0 * x[2] * x[3], 2.0 * m1,                                    // 1 0, 1 1
-        factor * x[3] + m0 * x[1] * x[3], m0 * x[0] * x[3], 2.0 * m1,                  // 2 0, 2 1, 2 2
-        factor * (2.0 * x[0] + x[1] + x[2]) + m0 * x[1] * x[2],                        // 3 0
-        factor * x[0] + m0 * x[0] * x[2], factor * x[0] + m0 * x[0] * x[1], 2.0 * m1;  // 3 1, 3 2, 3 3
+    return {{0, 0, factor * 2.0 * x[3] + 2.0 * m1},
+            {1, 0, factor * x[3] + m0 * x[2] * x[3]},
+            {1, 1, 2.0 * m1},
+            {2, 0, factor * x[3] + m0 * x[1] * x[3]},
+            {2, 1, m0 * x[0] * x[3]},
+            {2, 2, 2.0 * m1},
+            {3, 0, factor * (2.0 * x[0] + x[1] + x[2]) + m0 * x[1] * x[2]},
+            {3, 1, factor * x[0] + m0 * x[0] * x[2]},
+            {3, 2, factor * x[0] + m0 * x[0] * x[1]},
+            {3, 3, 2.0 * m1}};
   }
 
   void SetSumOfSquares(double value) { sum_of_squares_ = value; }
   void Poison() { poison_ = std::numeric_limits<double>::quiet_NaN(); }
 
  private:
-  static std::vector<MatrixEntry> MakeJacobian() {
-    std::vector<MatrixEntry> entries;
-    for (const int row : {0, 1})
-      for (int column = 0; column < 4; ++column) entries.push_back({row, column});
-    for (int column = 0; column < 4; ++column) entries.push_back({2 + column, column});
-    return entries;
-  }
-  static std::vector<MatrixEntry> MakeHessian() {
-    std::vector<MatrixEntry> entries;
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column <= row; ++column) entries.push_back({row, column});
-    return entries;
-  }
-
-  const std::vector<MatrixEntry> jacobian_ = MakeJacobian(), hessian_ = MakeHessian();
   double sum_of_squares_ = 40.0;
   double poison_ = 0.0;
 };
@@ -118,14 +102,9 @@ TEST(IpoptSolver, MultipliersMakeTheLagrangianStationary) {
   ASSERT_EQ(solver.Solve(program, 0.0, &point).status, SolveStatus::kSolved);
   ASSERT_EQ(point.multipliers.size(), 6);
   ASSERT_EQ(point.lower_multipliers.size(), 4);
-  Eigen::VectorXd gradient, values;
-  program.Gradient(point.x, &gradient);
-  program.JacobianValues(point.x, &values);
-  gradient -= point.lower_multipliers;
-  for (std::size_t k = 0; k < program.JacobianStructure().size(); ++k) {
-    const MatrixEntry& entry = program.JacobianStructure()[k];
-    gradient[entry.column] += point.multipliers[entry.row] * values[static_cast<Eigen::Index>(k)];
-  }
+  Eigen::VectorXd gradient = program.Gradient(point.x) - point.lower_multipliers;
+  for (const auto& entry : program.Jacobian(point.x))
+    gradient[entry.col()] += point.multipliers[entry.row()] * entry.value();
   EXPECT_LE(gradient.cwiseAbs().maxCoeff(), 1e-7);
   EXPECT_GT(point.lower_multipliers[0], 1.0);  // x0 is at its bound
 }

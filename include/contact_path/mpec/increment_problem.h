@@ -61,17 +61,12 @@ class IncrementProblem : public NonlinearProgram {
 
   Eigen::Index NumVariables() const override { return num_variables_; }
   Eigen::Index NumConstraints() const override { return num_constraints_; }
-  Eigen::VectorXd VariableLowerBounds() const override;
-  Eigen::VectorXd ConstraintLowerBounds() const override;
-  Eigen::VectorXd ConstraintUpperBounds() const override;
+  ProgramBounds Bounds() const override;
   double Objective(const Eigen::VectorXd& x) const override;
-  void Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const override;
-  void Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const override;
-  const std::vector<MatrixEntry>& JacobianStructure() const override { return jacobian_structure_; }
-  void JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const override;
-  const std::vector<MatrixEntry>& HessianStructure() const override { return hessian_structure_; }
-  void HessianValues(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                     Eigen::VectorXd* values) const override;
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& x) const override;
+  Eigen::VectorXd Constraints(const Eigen::VectorXd& x) const override;
+  MatrixEntries Jacobian(const Eigen::VectorXd& x) const override;
+  MatrixEntries Hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers) const override;
 
  private:
   // Where a law of the working set keeps its variables and constraints.
@@ -120,24 +115,13 @@ class IncrementProblem : public NonlinearProgram {
   void ForEachVariable(const Slot& slot, Visit visit) const;
   template <typename Visit>
   void ForEachVariableOf(const Slot& slot, std::size_t port, Visit visit) const;
-  void RecordStructures();
-  // Calls emit(row, column, value) for each structural entry, in a fixed order.
-  template <typename Emit>
-  void ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const;
-  template <typename Emit>
-  void ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                           Emit emit) const;
-  // Of the first port, its gap and product; of what always acts; of friction.
-  template <typename Emit>
-  void ForEachGapEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, Emit emit) const;
-  template <typename Emit>
-  void ForEachHeldEntry(const Slot& slot, const PortsAt& at, Emit emit) const;
-  template <typename Emit>
-  void ForEachFrictionEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, Emit emit) const;
+  // Entries of the Jacobian: of the first port, its gap and product; of what always acts; of friction.
+  void AddGap(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, MatrixEntries* entries) const;
+  void AddHeld(const Slot& slot, const PortsAt& at, MatrixEntries* entries) const;
+  void AddFriction(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, MatrixEntries* entries) const;
   // What the curvature of a law adds to the Hessian.
-  template <typename Emit>
-  void ForEachCurvatureEntry(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
-                             const Eigen::VectorXd& multipliers, Emit emit) const;
+  void AddCurvature(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                    MatrixEntries* entries) const;
 
   const Structure& structure_;
   const ContactPairs& contacts_;
@@ -150,9 +134,7 @@ class IncrementProblem : public NonlinearProgram {
   Eigen::Index num_constraints_ = 0;
   std::vector<Slot> slots_;
   std::vector<Support> supports_;
-  Eigen::VectorXd linear_objective_;  // NumDofs() + 1
-  std::vector<MatrixEntry> jacobian_structure_;
-  std::vector<MatrixEntry> hessian_structure_;
+  Eigen::VectorXd linear_objective_;             // NumDofs() + 1
   mutable Eigen::SparseMatrix<double> tangent_;  // scratch
 };
 

@@ -3,36 +3,36 @@
 #define CONTACT_PATH_MPEC_NONLINEAR_PROGRAM_H_
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 namespace contact_path {
 
-struct MatrixEntry {
-  int row;
-  int column;
+// Of a matrix; entries at the same place add up.
+using MatrixEntries = std::vector<Eigen::Triplet<double, Eigen::Index>>;
+
+// Infinite where there is none.
+struct ProgramBounds {
+  Eigen::VectorXd variables;     // lower bounds; there are no upper ones
+  Eigen::VectorXd lower, upper;  // of the constraints
 };
 
-// minimise f(x) subject to lower <= c(x) <= upper, x >= lower bounds. Structures are fixed for the life of the object.
+// minimise f(x) subject to lower <= c(x) <= upper, x >= lower bounds. The places of the entries of Jacobian and
+// Hessian, and their order, are fixed for the life of the object.
 class NonlinearProgram {
  public:
   virtual ~NonlinearProgram() = default;
 
   virtual Eigen::Index NumVariables() const = 0;
   virtual Eigen::Index NumConstraints() const = 0;
-  virtual Eigen::VectorXd VariableLowerBounds() const = 0;  // NumVariables(), -infinity = none
-  virtual Eigen::VectorXd ConstraintLowerBounds() const = 0;
-  virtual Eigen::VectorXd ConstraintUpperBounds() const = 0;
+  virtual ProgramBounds Bounds() const = 0;
 
   virtual double Objective(const Eigen::VectorXd& x) const = 0;
-  virtual void Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const = 0;
-  virtual void Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const = 0;
-  virtual const std::vector<MatrixEntry>& JacobianStructure() const = 0;
-  // In the order of the structure; entries at the same place add up.
-  virtual void JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const = 0;
+  virtual Eigen::VectorXd Gradient(const Eigen::VectorXd& x) const = 0;
+  virtual Eigen::VectorXd Constraints(const Eigen::VectorXd& x) const = 0;
+  virtual MatrixEntries Jacobian(const Eigen::VectorXd& x) const = 0;
   // Lower triangle of the Hessian of factor * f + multipliers . c.
-  virtual const std::vector<MatrixEntry>& HessianStructure() const = 0;
-  virtual void HessianValues(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                             Eigen::VectorXd* values) const = 0;
+  virtual MatrixEntries Hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers) const = 0;
 };
 
 // A point with multipliers, from which a solve starts and in which it ends.
