@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +10,6 @@
 #include "contact_path/branch/bordered_jacobian.h"
 #include "contact_path/equations/newton_loop.h"
 #include "contact_path/equations/second_form.h"
-#include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -119,7 +119,7 @@ Eigen::Index RanksNear(ArcEquations* equations, const Eigen::VectorXd& x, const 
   if (most < 2 || !at.ChooseBorders(x, most) || !at.Factorize(x)) return 1;
   at.UpdateBorders();
   if (!at.Factorize(x)) return 1;
-  const Eigen::VectorXd values = RightSingularVectors(at.sigma).values;
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(at.sigma, Eigen::ComputeFullV).singularValues();
   Eigen::Index k = 1;
   while (k < most && values[most - 1 - k] <= 2.0 * values[most - 1]) ++k;
   return k;

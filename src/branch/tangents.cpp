@@ -1,6 +1,7 @@
 #include "contact_path/branch/tangents.h"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,20 +10,21 @@
 #include "contact_path/equations/second_form.h"
 #include "contact_path/iterations.h"
 #include "contact_path/linear/linearised_equations.h"
-#include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
+using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
+
 // Columns of `basis` without what lies in the span of the rows' null space: splits a null space by what moves.
 // Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
 Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::Index count, bool still) {
   if (basis.cols() == 0) return basis;
-  const SingularVectors rows = RightSingularVectors(basis.middleRows(from, count));
+  const Svd rows(basis.middleRows(from, count), Eigen::ComputeFullV);
   Eigen::Index rank = 0;
-  while (rank < rows.values.size() && rows.values[rank] > tolerances::kDependent) ++rank;
-  return still ? basis * rows.v.rightCols(basis.cols() - rank) : basis * rows.v.leftCols(rank);
+  while (rank < rows.singularValues().size() && rows.singularValues()[rank] > tolerances::kDependent) ++rank;
+  return still ? basis * rows.matrixV().rightCols(basis.cols() - rank) : basis * rows.matrixV().leftCols(rank);
 }
 
 // The null vectors that move: rigid modes change neither the load factor nor a reaction, the proper ones do and have
@@ -55,9 +57,9 @@ NullSpaceParts PartsOf(const Eigen::MatrixXd& null_space, Eigen::Index motion) {
 // Of the combinations of the columns: that whose motion is nearest to the direction of arrival.
 Eigen::VectorXd NearestTo(const Eigen::VectorXd& arrival, const Eigen::MatrixXd& candidates) {
   const auto motions = candidates.topRows(arrival.size());
-  const SingularVectors s = RightSingularVectors(motions);
-  const Eigen::VectorXd along = s.v.transpose() * (motions.transpose() * arrival);
-  return candidates * (s.v * along.cwiseQuotient(s.values.cwiseAbs2()));
+  const Svd svd(motions, Eigen::ComputeFullV);
+  const Eigen::VectorXd along = svd.matrixV().transpose() * (motions.transpose() * arrival);
+  return candidates * (svd.matrixV() * along.cwiseQuotient(svd.singularValues().cwiseAbs2()));
 }
 
 // The direction of the arc where the equations leave more than one. A mechanism has rigid modes only: with one of them
@@ -89,8 +91,8 @@ void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, con
   for (int i = 0; i < kMostIterations; ++i) {
     Eigen::MatrixXd slope(modes.cols(), modes.cols());
     for (Eigen::Index k = 0; k < modes.cols(); ++k) slope.col(k) = 2.0 * psi.transpose() * second(z, modes.col(k));
-    const SingularVectors singular = RightSingularVectors(slope);
-    if (!(singular.values[modes.cols() - 1] > tolerances::kNoForm)) return;
+    const Svd svd(slope, Eigen::ComputeFullV);
+    if (!(svd.singularValues()[modes.cols() - 1] > tolerances::kNoForm)) return;
     z -= modes * slope.partialPivLu().solve(value);
     value = form(z);
     if (!value.allFinite()) return;

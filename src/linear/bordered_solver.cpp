@@ -42,52 +42,37 @@ struct BorderedSolver::Factors {
     return same;
   }
 
-  void Free() {
-    klu.Free();
-    large.Free();
-  }
-
-  // LU of [J; row], which is square and finite; false if it is singular.
-  bool FactorizeLu(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row, const Frame* frame) {
+  // LU of [J; row], which is square and finite: of its pivots, smallest over largest; 0 if it is singular.
+  double FactorizeLu(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row, const Frame* frame) {
     is_large = transposed.rows() >= kLargeSystem;
-    pivot_ratio = 0.0;
     if (is_large) {
       klu.Free();
-      if (!large.Factorize(transposed, row, frame)) return false;
-      pivot_ratio = large.PivotRatio();
-      return true;
+      return large.Factorize(transposed, row, frame) ? large.PivotRatio() : 0.0;
     }
     large.Free();
     const bool same_pattern = Assemble(transposed, row);
-    if (!klu.Factorize(&matrix, same_pattern)) return false;
-    pivot_ratio = klu.PivotRatio();
-    return true;
+    return klu.Factorize(&matrix, same_pattern) ? klu.PivotRatio() : 0.0;
   }
 
-  // In place: M x = (b, value) for each column.
+  // In place: M x = (b, value) for each column, without what lies along the null vectors.
   void SolveLu(double* x, Eigen::Index columns) {
     if (is_large)
       large.Solve(x, columns);
     else
       klu.SolveTransposed(x, static_cast<int>(columns));
+    Eigen::Map<Eigen::MatrixXd> solutions(x, unknowns, columns);
+    if (null_space.cols() > 0) solutions -= null_space * (null_space.transpose() * solutions);
   }
 
   // Needs the factors.
   int DeterminantSign() const { return is_large ? large.DeterminantSign() : klu.DeterminantSign(); }
 
   Eigen::SparseMatrix<double> matrix;  // M', unknowns x rows: of small systems
-  // Takes from each solution what lies along the null vectors.
-  void FreeOfNullVectors(double* x, Eigen::Index columns) const {
-    Eigen::Map<Eigen::MatrixXd> solutions(x, unknowns, columns);
-    if (null_space.cols() > 0) solutions -= null_space * (null_space.transpose() * solutions);
-  }
-
   Eigen::Index unknowns = 0;
   bool is_large = false;
   bool regular = false;        // LU solves
   Eigen::MatrixXd null_space;  // of M, orthonormal, where it is held by springs: LU is of M with them
   Eigen::SparseMatrix<double> held;
-  double pivot_ratio = 0.0;
   KluFactors klu;
   LargeFactors large;
   MinimumNormSolver minimum_norm;  // where not regular
@@ -97,30 +82,25 @@ BorderedSolver::BorderedSolver() : factors_(std::make_unique<Factors>()) {}
 BorderedSolver::~BorderedSolver() = default;
 
 bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                               const Frame* frame, double rank_tolerance) {
-  if (rank_tolerance == 0.0) {
-    if (FactorizeRegular(transposed, row, tolerances::kSingularPivot, frame)) return true;
-    rank_tolerance = tolerances::kDependentColumn;
-  } else {
-    factors_->Free();
-    factors_->regular = false;
-    factors_->unknowns = transposed.rows();
-    factors_->null_space.resize(factors_->unknowns, 0);
-  }
+                               const Frame* frame) {
+  if (FactorizeRegular(transposed, row, tolerances::kSingularPivot, frame)) return true;
   if (!transposed.coeffs().allFinite() || !row.allFinite()) return false;
   factors_->Assemble(transposed, row);
-  return factors_->minimum_norm.Factorize(factors_->matrix, rank_tolerance);
+  return factors_->minimum_norm.Factorize(factors_->matrix);
 }
 
 bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                                       double regular, const Frame* frame) {
   const bool possible =
       transposed.rows() == transposed.cols() + 1 && transposed.coeffs().allFinite() && row.allFinite();
-  if (!possible) factors_->Free();
+  if (!possible) {
+    factors_->klu.Free();
+    factors_->large.Free();
+  }
   factors_->unknowns = transposed.rows();
   factors_->null_space.resize(factors_->unknowns, 0);
-  factors_->regular = possible && factors_->FactorizeLu(transposed, row, frame) &&
-                      factors_->pivot_ratio > std::max(regular, tolerances::kSingularPivot);
+  factors_->regular =
+      possible && factors_->FactorizeLu(transposed, row, frame) > std::max(regular, tolerances::kSingularPivot);
   return factors_->regular;
 }
 
@@ -170,7 +150,6 @@ void BorderedSolver::Solve(const Eigen::VectorXd& b, double last, Eigen::VectorX
     return;
   }
   factors_->SolveLu(x->data(), 1);
-  factors_->FreeOfNullVectors(x->data(), 1);
 }
 
 void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const {
@@ -178,7 +157,6 @@ void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) cons
   x->topRows(B.rows()) = B;
   x->bottomRows(1).setZero();
   factors_->SolveLu(x->data(), x->cols());
-  factors_->FreeOfNullVectors(x->data(), x->cols());
 }
 
 bool BorderedSolver::HasLu() const { return factors_->regular; }

@@ -1,9 +1,8 @@
 #include "linear/klu_factors.h"
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <cstddef>
 #include <new>
-#include <vector>
 
 #include "contact_path/linear/frame.h"
 #include "contact_path/tolerances.h"
@@ -13,16 +12,8 @@ namespace {
 
 // Sign of a permutation of 0..n-1.
 int Parity(const int* permutation, int n) {
-  std::vector<bool> seen(static_cast<std::size_t>(n), false);
-  int sign = 1;
-  for (int i = 0; i < n; ++i) {
-    if (seen[static_cast<std::size_t>(i)]) continue;
-    int length = 0;
-    for (int j = i; !seen[static_cast<std::size_t>(j)]; j = permutation[j], ++length)
-      seen[static_cast<std::size_t>(j)] = true;
-    if (length % 2 == 0) sign = -sign;
-  }
-  return sign;
+  using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  return static_cast<int>(Eigen::Map<Permutation>(permutation, n).determinant());
 }
 
 }  // namespace
@@ -33,15 +24,12 @@ KluFactors::KluFactors() {
 }
 
 void KluFactors::Free() {
-  FreeNumeric();
+  klu_free_numeric(&numeric_, &common_);
   klu_free_symbolic(&symbolic_, &common_);
 }
 
-void KluFactors::FreeNumeric() { klu_free_numeric(&numeric_, &common_); }
-
 bool KluFactors::Factorize(Eigen::SparseMatrix<double>* matrix, bool same_pattern) {
   if (same_pattern && numeric_ != nullptr && Refactorize(matrix)) return true;
-  FreeNumeric();
   if (!same_pattern || symbolic_ == nullptr) Analyze(matrix);
   // Pivots on the diagonal first, which keep the factors sparse, where they have KLU's share of the largest entry.
   // Along a chain of contacts each may be small beside the entries below, and their growth takes all digits: then the
@@ -49,7 +37,7 @@ bool KluFactors::Factorize(Eigen::SparseMatrix<double>* matrix, bool same_patter
   klu_common by_default;
   klu_defaults(&by_default);
   for (const double share : {by_default.tol, 1.0}) {
-    FreeNumeric();
+    klu_free_numeric(&numeric_, &common_);
     common_.tol = share;
     if (symbolic_ != nullptr)
       numeric_ = klu_factor(matrix->outerIndexPtr(), rows_.data(), matrix->valuePtr(), symbolic_, &common_);

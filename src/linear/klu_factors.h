@@ -31,7 +31,6 @@ class KluFactors {
   void Solve(double* x);  // A x = b in place
 
  private:
-  void FreeNumeric();
   void Analyze(Eigen::SparseMatrix<double>* matrix);
   bool Refactorize(Eigen::SparseMatrix<double>* matrix);
   bool Regular();

@@ -52,7 +52,11 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
     frame = &own;
     SetValues(transposed, own);
   }
-  Transfer(*frame, row);
+  unknowns_ = frame->unknowns;
+  equations_ = frame->equations;
+  odd_ = frame->odd;
+  row_.resize(frame->size);
+  SetRow(row);
   if (Update(*frame)) return true;
   made_ = nullptr;
   const std::shared_ptr<const Ordering> known = frame->orderings->Find(*frame, row_);
@@ -69,14 +73,6 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
   ordering_ = frame->orderings->Add(*frame, row_);
   border_ = ordering_->border;
   return FactorizeBordered(true);
-}
-
-void LargeFactors::Transfer(const Frame& frame, const Eigen::VectorXd& row) {
-  unknowns_ = frame.unknowns;
-  equations_ = frame.equations;
-  odd_ = frame.odd;
-  row_.resize(frame.size);
-  SetRow(row);
 }
 
 // Without the border. False if an entry has no place in the frame.

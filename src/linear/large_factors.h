@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -43,7 +42,6 @@ class LargeFactors {
   void SolveTransposed(double* y);
 
  private:
-  void Transfer(const Frame& frame, const Eigen::VectorXd& row);
   void SetRow(const Eigen::VectorXd& row);
   bool SetValues(const Eigen::SparseMatrix<double>& transposed, const Frame& frame);
   // any_border: also with one that is nearly orthogonal to the null vector of J.

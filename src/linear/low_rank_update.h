@@ -20,7 +20,6 @@ class LowRankUpdate {
   bool Set(Eigen::MatrixXd moved, const Differences& differences);
 
   bool IsEmpty() const { return moved_.cols() == 0; }
-  const Eigen::MatrixXd& Moved() const { return moved_; }
   // From X = A0^-1 B to A^-1 B.
   void Correct(Eigen::Ref<Eigen::MatrixXd> X) const;
   // From b to c, A'^-1 b = A0'^-1 c.

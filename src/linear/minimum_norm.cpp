@@ -13,16 +13,23 @@ namespace contact_path {
 namespace {
 
 // A' E = Q R with R upper triangular in its first rank columns, A' unknowns x equations.
-class RankRevealingQr {
- public:
+struct RankRevealingQr {
   virtual ~RankRevealingQr() = default;
-  virtual Eigen::Index Rank() const = 0;
-  virtual Eigen::SparseMatrix<double> R() const = 0;
-  // E, as a permutation of vectors of the equations: (E w) has w in the order of A.
-  virtual Eigen::VectorXd Permuted(const Eigen::VectorXd& w) const = 0;
-  virtual Eigen::VectorXd Unpermuted(const Eigen::VectorXd& v) const = 0;  // E' v
   // Q v. Throws std::bad_alloc or LinearSolverError.
   virtual Eigen::VectorXd Multiply(const Eigen::VectorXd& v) const = 0;
+
+  Eigen::Index rank = 0;
+  Eigen::SparseMatrix<double> R;
+  // Of vectors of the equations: (E w) has w in the order of A.
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Eigen::Index> E;
+
+ protected:
+  template <typename Qr>
+  void TakeFrom(const Qr& qr) {
+    rank = qr.rank();
+    R = qr.matrixR();
+    E.indices() = qr.colsPermutation().indices().template cast<Eigen::Index>();
+  }
 };
 
 // Of small matrices: no call of the BLAS, so that the result does not depend on the processor.
@@ -32,11 +39,8 @@ class SmallQr : public RankRevealingQr {
     qr_.setPivotThreshold(rank_tolerance);
     qr_.compute(matrix);
     if (qr_.info() != Eigen::Success) throw LinearSolverError("Eigen::SparseQR", static_cast<int>(qr_.info()));
+    TakeFrom(qr_);
   }
-  Eigen::Index Rank() const override { return qr_.rank(); }
-  Eigen::SparseMatrix<double> R() const override { return qr_.matrixR(); }
-  Eigen::VectorXd Permuted(const Eigen::VectorXd& w) const override { return qr_.colsPermutation() * w; }
-  Eigen::VectorXd Unpermuted(const Eigen::VectorXd& v) const override { return qr_.colsPermutation().transpose() * v; }
   Eigen::VectorXd Multiply(const Eigen::VectorXd& v) const override { return qr_.matrixQ() * v; }
 
  private:
@@ -54,14 +58,9 @@ class LargeQr : public RankRevealingQr, private Spqr {
     cholmodCommon()->print = 0;  // standard output is not its own
     setPivotThreshold(rank_tolerance);
     compute(matrix);
-    if (m_cR != nullptr) return;
-    RequireMemory();
-    throw LinearSolverError("SuiteSparseQR", cholmodCommon()->status);
+    if (m_cR == nullptr) ThrowStatus();
+    TakeFrom<Spqr>(*this);
   }
-  Eigen::Index Rank() const override { return rank(); }
-  Eigen::SparseMatrix<double> R() const override { return matrixR(); }
-  Eigen::VectorXd Permuted(const Eigen::VectorXd& w) const override { return colsPermutation() * w; }
-  Eigen::VectorXd Unpermuted(const Eigen::VectorXd& v) const override { return colsPermutation().transpose() * v; }
   Eigen::VectorXd Multiply(const Eigen::VectorXd& v) const override {
     cholmod_common* const common = cholmodCommon();
     Eigen::VectorXd copy = v;
@@ -69,18 +68,16 @@ class LargeQr : public RankRevealingQr, private Spqr {
     const auto free = [common](cholmod_dense* product) { cholmod_l_free_dense(&product, common); };
     const std::unique_ptr<cholmod_dense, decltype(free)> product(
         SuiteSparseQR_qmult<double>(SPQR_QX, m_H, m_HTau, m_HPinv, &dense, common), free);
-    if (product == nullptr) {
-      RequireMemory();
-      throw LinearSolverError("SuiteSparseQR", common->status);
-    }
+    if (product == nullptr) ThrowStatus();
     return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(product->x),
                                              static_cast<Eigen::Index>(product->nrow));
   }
 
  private:
-  void RequireMemory() const {
+  [[noreturn]] void ThrowStatus() const {
     const int status = cholmodCommon()->status;
     if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+    throw LinearSolverError("SuiteSparseQR", status);
   }
 };
 
@@ -113,10 +110,7 @@ Eigen::VectorXd NormsOf(const Eigen::SparseMatrix<double>& transposed, double ra
 
 struct MinimumNormSolver::Factors {
   std::unique_ptr<const RankRevealingQr> qr;  // a new one each time: after a failure, Eigen frees what it has freed
-  Eigen::SparseMatrix<double> r;
-  Eigen::Index rank = 0;
   Eigen::Index unknowns = 0;
-  Eigen::SparseMatrix<double> scaled;
   Eigen::VectorXd scale;  // of the equations
 };
 
@@ -126,68 +120,66 @@ MinimumNormSolver::~MinimumNormSolver() = default;
 bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
   const Eigen::VectorXd norms = NormsOf(transposed, rank_tolerance);
   if (!norms.allFinite()) return false;
-  factors_->scaled = transposed;
+  Eigen::SparseMatrix<double> scaled = transposed;
+  for (Eigen::Index column = 0; column < transposed.cols(); ++column) scaled.col(column) /= norms[column];
   factors_->scale = norms.cwiseInverse();
-  for (Eigen::Index column = 0; column < transposed.cols(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->scaled, column); it; ++it)
-      it.valueRef() /= norms[column];
-  if (transposed.rows() < kLargeSystem)
-    factors_->qr = std::make_unique<SmallQr>(factors_->scaled, rank_tolerance);
-  else
-    factors_->qr = std::make_unique<LargeQr>(factors_->scaled, rank_tolerance);
-  factors_->rank = factors_->qr->Rank();
   factors_->unknowns = transposed.rows();
-  factors_->r = factors_->qr->R();
+  if (transposed.rows() < kLargeSystem)
+    factors_->qr = std::make_unique<SmallQr>(scaled, rank_tolerance);
+  else
+    factors_->qr = std::make_unique<LargeQr>(scaled, rank_tolerance);
   return true;
 }
 
-Eigen::Index MinimumNormSolver::Rank() const { return factors_->rank; }
+Eigen::Index MinimumNormSolver::Rank() const { return factors_->qr->rank; }
 
 Eigen::VectorXd MinimumNormSolver::Solve(const Eigen::VectorXd& b) const {
   // A' E = Q R, so A x = b is R' (Q' x) = E' b: forward substitution, and zero in the rest of Q' x for the shortest x.
-  const Eigen::VectorXd permuted = factors_->qr->Unpermuted(factors_->scale.cwiseProduct(b));
+  const RankRevealingQr& qr = *factors_->qr;
+  const Eigen::VectorXd permuted = qr.E.transpose() * factors_->scale.cwiseProduct(b);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(factors_->unknowns);
-  for (Eigen::Index j = 0; j < factors_->rank; ++j) {
+  for (Eigen::Index j = 0; j < qr.rank; ++j) {
     double sum = permuted[j], diagonal = 0.0;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, j); it; ++it) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(qr.R, j); it; ++it) {
       if (it.row() < j) sum -= it.value() * y[it.row()];
       if (it.row() == j) diagonal = it.value();
     }
     y[j] = sum / diagonal;
   }
-  return factors_->qr->Multiply(y);
+  return qr.Multiply(y);
 }
 
 Eigen::MatrixXd MinimumNormSolver::NullSpace() const {
-  const Eigen::Index size = factors_->unknowns - factors_->rank;
+  const Eigen::Index size = factors_->unknowns - Rank();
   Eigen::MatrixXd basis(factors_->unknowns, size);
   for (Eigen::Index k = 0; k < size; ++k) basis.col(k) = NullVector(k);
   return basis;
 }
 
 Eigen::VectorXd MinimumNormSolver::NullVector(Eigen::Index column) const {
-  return factors_->qr->Multiply(Eigen::VectorXd::Unit(factors_->unknowns, factors_->rank + column));
+  return factors_->qr->Multiply(Eigen::VectorXd::Unit(factors_->unknowns, Rank() + column));
 }
 
 Eigen::MatrixXd MinimumNormSolver::LeftNullSpace() const {
   // A' E = Q [R1 R2]: R1 w + R2 v = 0 for each unit vector v, by backward substitution.
-  const Eigen::Index equations = factors_->r.cols(), rank = factors_->rank;
+  const RankRevealingQr& qr = *factors_->qr;
+  const Eigen::Index equations = qr.R.cols(), rank = qr.rank;
   Eigen::MatrixXd basis(equations, equations - rank);
   for (Eigen::Index k = 0; k < basis.cols(); ++k) {
     Eigen::VectorXd w = Eigen::VectorXd::Zero(equations);
     w[rank + k] = 1.0;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(rank);
-    for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, rank + k); it; ++it)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(qr.R, rank + k); it; ++it)
       if (it.row() < rank) right[it.row()] -= it.value();
     for (Eigen::Index j = rank; j-- > 0;) {
       double diagonal = 0.0;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, j); it; ++it)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(qr.R, j); it; ++it)
         if (it.row() == j) diagonal = it.value();
       w[j] = right[j] / diagonal;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, j); it; ++it)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(qr.R, j); it; ++it)
         if (it.row() < j) right[it.row()] -= it.value() * w[j];
     }
-    basis.col(k) = factors_->scale.cwiseProduct(factors_->qr->Permuted(w));
+    basis.col(k) = factors_->scale.cwiseProduct(qr.E * w);
   }
   return basis;
 }

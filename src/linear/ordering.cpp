@@ -58,9 +58,6 @@ bool Ordering::Suits(const Frame& frame) const {
          std::equal(frame.entries.begin(), frame.entries.end(), entries.begin());
 }
 
-Orderings::Orderings() = default;
-Orderings::~Orderings() = default;
-
 std::shared_ptr<const Ordering> Orderings::Find(const Frame& frame, const Eigen::VectorXd& row) const {
   std::shared_ptr<const Ordering> found;
   for (auto ordering = kept_.rbegin(); ordering != kept_.rend(); ++ordering) {

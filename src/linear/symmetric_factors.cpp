@@ -33,43 +33,51 @@ enum Job : int { kInitialise = -1, kTerminate = -2, kAnalyse = 1, kFactorise = 2
 enum Outcome : int { kNotEnoughWorkspace = -9, kSingular = -10, kOutOfMemory = -13 };
 constexpr int kMostRelaxed = 8;  // times that the estimate of the workspace is doubled
 
+bool HaveSamePattern(const Eigen::SparseMatrix<double>& a, const Eigen::SparseMatrix<double>& b) {
+  const auto same = [](const int* of_a, const int* of_b, Eigen::Index size) {
+    return std::equal(of_a, of_a + size, of_b);
+  };
+  return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() &&
+         same(a.outerIndexPtr(), b.outerIndexPtr(), a.cols() + 1) &&
+         same(a.innerIndexPtr(), b.innerIndexPtr(), a.nonZeros());
+}
+
 // Constraints, at the end with zeros or kCompliance on their diagonal, each right behind the first unknown that is
 // among its largest: the two pivots are one of size two, and what is left is the matrix on the motions that the
 // constraint admits.
 struct UnknownsWithConstraints {
   using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
-  void operator()(const Eigen::SparseMatrix<double>& matrix, Permutation& order) const;
-};
-
-void UnknownsWithConstraints::operator()(const Eigen::SparseMatrix<double>& matrix, Permutation& order) const {
-  Eigen::Index unknowns = matrix.rows();
-  const auto is_constraint = [](double diagonal) { return diagonal == 0.0 || diagonal == kCompliance; };
-  while (unknowns > 0 && is_constraint(matrix.coeff(unknowns - 1, unknowns - 1))) --unknowns;
-  Permutation of_unknowns;
-  Eigen::AMDOrdering<int>()(Eigen::SparseMatrix<double>(matrix.topLeftCorner(unknowns, unknowns)), of_unknowns);
-  std::vector<bool> placed(static_cast<std::size_t>(matrix.rows()));
-  order.resize(matrix.rows());
-  Eigen::Index next = 0;
-  const auto place = [&](Eigen::Index k) {
-    placed[static_cast<std::size_t>(k)] = true;
-    order.indices()[next++] = static_cast<int>(k);
-  };
-  for (Eigen::Index k = 0; k < unknowns; ++k) {
-    const Eigen::Index unknown = of_unknowns.indices()[k];
-    place(unknown);
-    Eigen::Index with = -1;
-    double largest = kLarge;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, unknown); it; ++it) {
-      if (it.row() < unknowns || placed[static_cast<std::size_t>(it.row())] || std::abs(it.value()) < largest) continue;
-      largest = std::abs(it.value());
-      with = it.row();
+  void operator()(const Eigen::SparseMatrix<double>& matrix, Permutation& order) const {
+    Eigen::Index unknowns = matrix.rows();
+    const auto is_constraint = [](double diagonal) { return diagonal == 0.0 || diagonal == kCompliance; };
+    while (unknowns > 0 && is_constraint(matrix.coeff(unknowns - 1, unknowns - 1))) --unknowns;
+    Permutation of_unknowns;
+    Eigen::AMDOrdering<int>()(Eigen::SparseMatrix<double>(matrix.topLeftCorner(unknowns, unknowns)), of_unknowns);
+    std::vector<bool> placed(static_cast<std::size_t>(matrix.rows()));
+    order.resize(matrix.rows());
+    Eigen::Index next = 0;
+    const auto place = [&](Eigen::Index k) {
+      placed[static_cast<std::size_t>(k)] = true;
+      order.indices()[next++] = static_cast<int>(k);
+    };
+    for (Eigen::Index k = 0; k < unknowns; ++k) {
+      const Eigen::Index unknown = of_unknowns.indices()[k];
+      place(unknown);
+      Eigen::Index with = -1;
+      double largest = kLarge;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, unknown); it; ++it) {
+        if (it.row() < unknowns || placed[static_cast<std::size_t>(it.row())] || std::abs(it.value()) < largest)
+          continue;
+        largest = std::abs(it.value());
+        with = it.row();
+      }
+      if (with >= 0) place(with);
     }
-    if (with >= 0) place(with);
+    for (Eigen::Index k = unknowns; k < matrix.rows(); ++k)
+      if (!placed[static_cast<std::size_t>(k)]) place(k);
   }
-  for (Eigen::Index k = unknowns; k < matrix.rows(); ++k)
-    if (!placed[static_cast<std::size_t>(k)]) place(k);
-}
+};
 
 }  // namespace
 
@@ -92,10 +100,7 @@ struct SymmetricFactors::Small {
     Matrix stiffened = scaled;
     if (constraints > 0) stiffened += Matrix(kStiffened * columns * Matrix(columns.transpose()));
     stiffened.makeCompressed();
-    const auto same = [](const auto& a, const auto& b, Eigen::Index size) { return std::equal(a, a + size, b); };
-    bool analysed = pattern.rows() == stiffened.rows() && pattern.nonZeros() == stiffened.nonZeros() &&
-                    same(pattern.outerIndexPtr(), stiffened.outerIndexPtr(), stiffened.rows()) &&
-                    same(pattern.innerIndexPtr(), stiffened.innerIndexPtr(), stiffened.nonZeros());
+    const bool analysed = HaveSamePattern(pattern, stiffened);
     pattern.swap(stiffened);
     factors.setShift(tolerances::kLastDigits);  // so that a pivot which is zero is told by the growth
     for (const bool anew : {false, true}) {     // which entries of the constraints are large may have changed
@@ -204,11 +209,7 @@ struct SymmetricFactors::Large {
   // the columns of 1 of these rows. With G = E' last^-1 E, [last E; E' -d^-1] has its negative eigenvalues and those of
   // -d^-1, or those of last and of -d^-1 - G (Haynsworth), here with d = Q diag(q) Q' between roots of |q|.
   bool Update(const Eigen::SparseMatrix<double>& matrix) {
-    const auto same = [](const int* a, const int* b, Eigen::Index count) { return std::equal(a, a + count, b); };
-    if (last.rows() != matrix.rows() || last.nonZeros() != matrix.nonZeros() ||
-        !same(last.outerIndexPtr(), matrix.outerIndexPtr(), matrix.cols() + 1) ||
-        !same(last.innerIndexPtr(), matrix.innerIndexPtr(), matrix.nonZeros()))
-      return false;
+    if (!HaveSamePattern(last, matrix)) return false;
     std::vector<int> changed;
     for (int k = 0; k < static_cast<int>(matrix.cols()); ++k) {
       if (std::equal(matrix.valuePtr() + matrix.outerIndexPtr()[k], matrix.valuePtr() + matrix.outerIndexPtr()[k + 1],

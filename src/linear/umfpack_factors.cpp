@@ -55,10 +55,9 @@ UmfpackAnalysis::~UmfpackAnalysis() { umfpack_di_free_symbolic(&symbolic_); }
 
 UmfpackFactors::UmfpackFactors() : control_(Control()) {}
 
-void UmfpackFactors::Free() { umfpack_di_free_numeric(&numeric_); }
+UmfpackFactors::~UmfpackFactors() { umfpack_di_free_numeric(&numeric_); }
 
 bool UmfpackFactors::Factorize(const UmfpackAnalysis& analysis, const Eigen::VectorXd& values) {
-  Free();
   Info info{};
   const bool regular = Require(umfpack_di_numeric(analysis.Starts().data(), analysis.Entries().data(), values.data(),
                                                   analysis.Symbolic(), &numeric_, control_.data(), info.data()));

@@ -34,13 +34,12 @@ class UmfpackAnalysis {
 class UmfpackFactors {
  public:
   UmfpackFactors();
-  ~UmfpackFactors() { Free(); }
+  ~UmfpackFactors();
   UmfpackFactors(const UmfpackFactors&) = delete;
   UmfpackFactors& operator=(const UmfpackFactors&) = delete;
 
-  void Free();
-  // values: of the entries of the pattern, finite. False if the matrix is singular. Throws LinearSolverError where the
-  // factorisation fails otherwise.
+  // Once. values: of the entries of the pattern, finite. False if the matrix is singular. Throws LinearSolverError
+  // where the factorisation fails otherwise.
   bool Factorize(const UmfpackAnalysis& analysis, const Eigen::VectorXd& values);
 
   // Of the pivots, smallest over largest.

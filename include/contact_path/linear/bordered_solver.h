@@ -25,10 +25,9 @@ class BorderedSolver {
   BorderedSolver& operator=(const BorderedSolver&) = delete;
 
   // transposed: J', unknowns x equations; row: NumUnknowns entries. False if the matrix is not finite.
-  // frame: of the system, which saves large ones orderings, or null. rank_tolerance > 0: by the QR factorisation in any
-  // case, with this tolerance (minimum_norm.h).
+  // frame: of the system, which saves large ones orderings, or null.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                 const Frame* frame = nullptr, double rank_tolerance = 0.0);
+                 const Frame* frame = nullptr);
   // LU only: false if M is singular, not square, or its pivots are further apart than `regular` admits.
   bool FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                         double regular = tolerances::kSingularPivot, const Frame* frame = nullptr);

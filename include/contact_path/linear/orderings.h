@@ -16,8 +16,7 @@ struct Ordering;
 // its systems: src/linear/large_factors.h. Not for several threads at once.
 class Orderings {
  public:
-  Orderings();
-  ~Orderings();
+  Orderings() = default;
   Orderings(const Orderings&) = delete;
   Orderings& operator=(const Orderings&) = delete;
 
