@@ -3,7 +3,6 @@
 #include <exception>
 #include <fstream>
 #include <new>
-#include <tuple>
 #include <utility>
 
 #include <rosbag/bag.h>
@@ -51,7 +50,7 @@ std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag, const std::function<
       const auto message = Read<contact_path_msgs::TraceRequest>(instance);
       if (!traces.empty() && traces.back().increments.empty()) traces.pop_back();
       RecordedTrace& trace = traces.emplace_back();
-      trace.request = FromMessage(message->scene, message->options, message->program);
+      trace.request = FromMessage(*message);
       const std::vector<Violation> violations = Validate(trace.request);
       if (!violations.empty()) throw InvalidRequest(violations);
     } else if (EndsIn(topic, names::kIncrements)) {
@@ -70,30 +69,16 @@ std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag, const std::function<
   throw InvalidRequest(std::vector<Violation>{{key, value, rule}});
 }
 
-template <typename T>
-bool IsEmpty(const T& value) {
-  return value == T();
-}
-template <typename T>
-bool IsEmpty(const std::vector<T>& values) {
-  return values.empty();
-}
-
-// Calls visit(name, whether it is left out) for each field of a message that has the fields of Part.
-template <typename Part, typename Message, typename Visit>
-void ForEachMessageField(const Message& message, Visit visit) {
-  std::apply([&](const auto&... field) { (visit(std::string(field.name), IsEmpty(message.*field.member)), ...); },
-             Fields<Message>(Of<Part>()));
-}
-
 // The bag has the request; only the number of increments may be another one.
 void CheckNothingElse(const contact_path_msgs::TraceRequest& request) {
   const auto require_empty = [](const std::string& key, bool empty) {
     if (!empty) Refuse(key, "", "must be left out where a bag is resumed");
   };
-  ForEachMessageField<Scene>(request.scene, [&](const std::string&, bool empty) { require_empty("scene", empty); });
-  ForEachMessageField<TraceOptions>(request.options, [&](const std::string& name, bool empty) {
-    if (name != "max_increments") require_empty("options." + name, empty);
+  require_empty("scene", request.scene == contact_path_msgs::Scene());
+  const contact_path_msgs::TraceOptions none;
+  ForEachFieldPair<TraceOptions, contact_path_msgs::TraceOptions>([&](const auto&, const auto& field) {
+    if (field.name != "max_increments")
+      require_empty("options." + std::string(field.name), request.options.*field.member == none.*field.member);
   });
   require_empty("program", request.program.empty());
 }
@@ -124,14 +109,10 @@ std::vector<RecordedTrace> ReadTraces(const std::string& file, const std::functi
   }
 }
 
-RecordedTrace ReadTrace(const std::string& file, const std::function<bool()>& cancelled) {
-  std::vector<RecordedTrace> traces = ReadTraces(file, cancelled);
-  if (traces.size() > 1) throw BagError(file + ": holds several traces");
-  return std::move(traces.front());
-}
-
-TraceSoFar ReadTraceSoFar(const std::string& bag, const std::function<bool()>& cancelled) {
-  RecordedTrace trace = ReadTrace(bag, cancelled);
+RecordedTrace ReadTraceSoFar(const std::string& bag, const std::function<bool()>& cancelled) {
+  std::vector<RecordedTrace> traces = ReadTraces(bag, cancelled);
+  if (traces.size() > 1) throw BagError(bag + ": holds several traces");
+  RecordedTrace& trace = traces.front();
   if (!trace.increments.empty()) {
     const Verification verification = VerifyPath(trace.request, trace.increments, [&] {
       if (cancelled && cancelled()) throw ReadingCancelled(bag);
@@ -142,11 +123,11 @@ TraceSoFar ReadTraceSoFar(const std::string& bag, const std::function<bool()>& c
                                finding.what);
     }
   }
-  return {std::move(trace.request), std::move(trace.increments)};
+  return std::move(trace);
 }
 
-TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request,
-                          const std::function<bool()>& cancelled) {
+RecordedTrace ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request,
+                             const std::function<bool()>& cancelled) {
   const std::filesystem::path name = request.resume;
   if (name.filename() != name || request.resume == "." || request.resume == "..")
     Refuse("resume", request.resume, "must be the name of a bag in the bag directory");
@@ -158,7 +139,7 @@ TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_
   if (type != std::filesystem::file_type::regular)
     Refuse("resume", request.resume, "must be the name of a bag in the bag directory");
   CheckNothingElse(request);
-  TraceSoFar so_far;
+  RecordedTrace so_far;
   try {
     so_far = ReadTraceSoFar(file.string(), cancelled);
   } catch (const ReadingCancelled&) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +15,13 @@
 #include "contact_path/scene/words.h"
 
 namespace contact_path {
+
+template <typename P>
+constexpr auto Fields(Of<CriticalPoint>) {
+  return std::tuple(Member("index", &P::index), Member("stage", &P::stage), Member("kind", &P::kind),
+                    Member("load_factor", &P::load_factor));
+}
+
 namespace {
 
 namespace msgs = contact_path_msgs;
@@ -21,72 +29,62 @@ using Response = msgs::TracePathResponse;
 
 // The message constants of a type of the core, one pair for each value. Other enumerations are words in messages.
 template <typename Value>
-struct Constants;
+constexpr std::nullptr_t kConstants = nullptr;
 
 template <>
-struct Constants<ContactState> {
-  static constexpr std::pair<ContactState, std::uint8_t> kAll[] = {
-      {ContactState::kOpen, msgs::ContactState::OPEN},
-      {ContactState::kStick, msgs::ContactState::STICK},
-      {ContactState::kSlipPlus, msgs::ContactState::SLIP_PLUS},
-      {ContactState::kSlipMinus, msgs::ContactState::SLIP_MINUS},
-      {ContactState::kClosed, msgs::ContactState::CLOSED},
-  };
+constexpr std::pair<ContactState, std::uint8_t> kConstants<ContactState>[] = {
+    {ContactState::kOpen, msgs::ContactState::OPEN},
+    {ContactState::kStick, msgs::ContactState::STICK},
+    {ContactState::kSlipPlus, msgs::ContactState::SLIP_PLUS},
+    {ContactState::kSlipMinus, msgs::ContactState::SLIP_MINUS},
+    {ContactState::kClosed, msgs::ContactState::CLOSED},
 };
 
 template <>
-struct Constants<BarState> {
-  static constexpr std::pair<BarState, std::uint8_t> kAll[] = {
-      {BarState::kTaut, msgs::Increment::TAUT},
-      {BarState::kSlack, msgs::Increment::SLACK},
-  };
+constexpr std::pair<BarState, std::uint8_t> kConstants<BarState>[] = {
+    {BarState::kTaut, msgs::Increment::TAUT},
+    {BarState::kSlack, msgs::Increment::SLACK},
 };
 
 template <>
-struct Constants<IncrementKind> {
-  static constexpr std::pair<IncrementKind, std::uint8_t> kAll[] = {
-      {IncrementKind::kStart, msgs::Increment::START},
-      {IncrementKind::kRegular, msgs::Increment::REGULAR},
-      {IncrementKind::kSmoothLimit, msgs::Increment::SMOOTH_LIMIT},
-      {IncrementKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
-      {IncrementKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
-      {IncrementKind::kBifurcation, msgs::Increment::BIFURCATION},
-      {IncrementKind::kSample, msgs::Increment::SAMPLE},
-      {IncrementKind::kOnset, msgs::Increment::ONSET},
-      {IncrementKind::kJump, msgs::Increment::JUMP},
-  };
+constexpr std::pair<IncrementKind, std::uint8_t> kConstants<IncrementKind>[] = {
+    {IncrementKind::kStart, msgs::Increment::START},
+    {IncrementKind::kRegular, msgs::Increment::REGULAR},
+    {IncrementKind::kSmoothLimit, msgs::Increment::SMOOTH_LIMIT},
+    {IncrementKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
+    {IncrementKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
+    {IncrementKind::kBifurcation, msgs::Increment::BIFURCATION},
+    {IncrementKind::kSample, msgs::Increment::SAMPLE},
+    {IncrementKind::kOnset, msgs::Increment::ONSET},
+    {IncrementKind::kJump, msgs::Increment::JUMP},
 };
 
 template <>
-struct Constants<Method> {
-  static constexpr std::pair<Method, std::uint8_t> kAll[] = {
-      {Method::kBranch, msgs::Increment::BRANCH},
-      {Method::kMpec, msgs::Increment::MPEC},
-  };
+constexpr std::pair<Method, std::uint8_t> kConstants<Method>[] = {
+    {Method::kBranch, msgs::Increment::BRANCH},
+    {Method::kMpec, msgs::Increment::MPEC},
 };
 
 template <>
-struct Constants<EndReason> {
-  static constexpr std::pair<EndReason, std::uint8_t> kAll[] = {
-      {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE},
-      {EndReason::kStopCriterion, Response::END_STOP_CRITERION},
-      {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS},
-      {EndReason::kPathEnd, Response::END_PATH_END},
-      {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL},
-      {EndReason::kCancelled, Response::END_CANCELLED},
-      {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH},
-      {EndReason::kClosedPath, Response::END_CLOSED_PATH},
-      {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
-      {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED},
-      {EndReason::kNotDetermined, Response::END_NOT_DETERMINED},
-      {EndReason::kAtLimit, Response::END_AT_LIMIT},
-      {EndReason::kNoLanding, Response::END_NO_LANDING},
-  };
+constexpr std::pair<EndReason, std::uint8_t> kConstants<EndReason>[] = {
+    {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE},
+    {EndReason::kStopCriterion, Response::END_STOP_CRITERION},
+    {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS},
+    {EndReason::kPathEnd, Response::END_PATH_END},
+    {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL},
+    {EndReason::kCancelled, Response::END_CANCELLED},
+    {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH},
+    {EndReason::kClosedPath, Response::END_CLOSED_PATH},
+    {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
+    {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED},
+    {EndReason::kNotDetermined, Response::END_NOT_DETERMINED},
+    {EndReason::kAtLimit, Response::END_AT_LIMIT},
+    {EndReason::kNoLanding, Response::END_NO_LANDING},
 };
 
 template <typename Value>
 std::uint8_t ConstantOf(Value value) {
-  for (const auto& [known, constant] : Constants<Value>::kAll) {
+  for (const auto& [known, constant] : kConstants<Value>) {
     if (known == value) return constant;
   }
   throw std::logic_error("a value of the core has no message constant");
@@ -94,13 +92,11 @@ std::uint8_t ConstantOf(Value value) {
 
 template <typename Value>
 Value ValueOf(std::uint8_t constant, const KeyPath& path) {
-  for (const auto& [value, known] : Constants<Value>::kAll) {
+  for (const auto& [value, known] : kConstants<Value>) {
     if (known == constant) return value;
   }
   throw std::invalid_argument(path.ToString() + " = " + std::to_string(constant) + ": no known constant");
 }
-
-std::uint32_t ToCount(int count) { return static_cast<std::uint32_t>(count); }
 
 int FromCount(std::uint32_t count, const KeyPath& path) {
   if (count > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) {
@@ -172,7 +168,7 @@ void CopyToMessage(const From& from, To* to) {
   } else if constexpr (std::is_enum_v<From>) {
     *to = ConstantOf(from);
   } else if constexpr (std::is_same_v<From, int> && std::is_same_v<To, std::uint32_t>) {
-    *to = ToCount(from);
+    *to = static_cast<std::uint32_t>(from);
   } else if constexpr (std::is_same_v<From, std::vector<bool>>) {
     to->assign(from.begin(), from.end());
   } else {
@@ -189,38 +185,12 @@ constexpr std::pair<double Residuals::*, double msgs::Increment::*> kResiduals[]
     {&Residuals::friction_law, &msgs::Increment::friction_law_residual},
     {&Residuals::support, &msgs::Increment::support_residual}};
 
-template <typename Request>
-msgs::TraceRequest SameRequest(const Request& request) {
-  msgs::TraceRequest same;
-  same.scene = request.scene;
-  same.options = request.options;
-  same.program = request.program;
-  same.resume = request.resume;
-  return same;
-}
-
-template <typename Result>
-Result SameResult(const msgs::TracePathResponse& response) {
-  Result result;
-  result.status = response.status;
-  result.message = response.message;
-  result.increments = response.increments;
-  result.end_reason = response.end_reason;
-  result.end_reason_name = response.end_reason_name;
-  result.bag = response.bag;
-  result.limit_points = response.limit_points;
-  return result;
-}
-
 }  // namespace
 
-TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& options,
-                         const std::vector<msgs::Stage>& program) {
+TraceRequest FromMessage(const msgs::TraceRequest& message) {
   TraceRequest request;
   FromMessages from;
-  from.Copy(scene, KeyPath("scene"), &request.scene);
-  from.Copy(options, KeyPath("options"), &request.options);
-  from.Copy(program, KeyPath("program"), &request.program);
+  from.Copy(message, KeyPath(), &request);
   if (!from.violations().empty()) throw InvalidRequest(from.violations());
   return request;
 }
@@ -230,10 +200,6 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
   CopyToMessage(request, &message);
   return message;
 }
-
-msgs::TraceRequest ToRequest(const msgs::TracePathRequest& request) { return SameRequest(request); }
-
-msgs::TraceRequest ToRequest(const msgs::TracePathGoal& goal) { return SameRequest(goal); }
 
 msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   msgs::Increment message;
@@ -291,14 +257,7 @@ Increment FromMessage(const msgs::Increment& message) {
 
 std::vector<msgs::LimitPoint> ToMessages(const std::vector<CriticalPoint>& points) {
   std::vector<msgs::LimitPoint> messages;
-  messages.reserve(points.size());
-  for (const CriticalPoint& point : points) {
-    msgs::LimitPoint& to = messages.emplace_back();
-    to.index = ToCount(point.index);
-    to.stage = ToCount(point.stage);
-    to.kind = ConstantOf(point.kind);
-    to.load_factor = point.load_factor;
-  }
+  CopyToMessage(points, &messages);
   return messages;
 }
 
@@ -318,12 +277,6 @@ std::string EndMessage(const std::string& name, const std::string& why, const Pa
 std::uint8_t StatusOf(const TraceResult& result) {
   if (result.reason == EndReason::kNoSuchBranch) return Response::INVALID_REQUEST;
   return result.reached ? Response::OK : Response::ENDED_EARLY;
-}
-
-msgs::TraceResult ToResult(const msgs::TracePathResponse& response) { return SameResult<msgs::TraceResult>(response); }
-
-msgs::TracePathResult ToActionResult(const msgs::TracePathResponse& response) {
-  return SameResult<msgs::TracePathResult>(response);
 }
 
 }  // namespace contact_path

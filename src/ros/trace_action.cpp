@@ -40,7 +40,7 @@ void TraceAction::TakeGoal(Server::GoalHandle goal) {
   Response response;
   try {
     if (!service_.Admit(NameOf(*goal.getGoal()), &response)) {
-      goal.setRejected(ToActionResult(response), response.message);
+      goal.setRejected(ToResult<contact_path_msgs::TracePathResult>(response), response.message);
       return;
     }
   } catch (const std::exception& error) {  // where memory ends
@@ -88,7 +88,7 @@ void TraceAction::Trace(Server::GoalHandle goal) {
   };
   service_.Run([&] { return ToRequest(*goal.getGoal()); }, observer, &response);
 
-  const contact_path_msgs::TracePathResult result = ToActionResult(response);
+  const auto result = ToResult<contact_path_msgs::TracePathResult>(response);
   if (response.status == Response::ENDED_EARLY && response.end_reason == Response::END_CANCELLED) {
     goal.setCanceled(result, response.message);
   } else if (!accepted) {

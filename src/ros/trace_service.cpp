@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "contact_path/linear/blas.h"
-#include "contact_path/path/end.h"
 #include "contact_path/path/mpec_method.h"
-#include "contact_path/path/sentences.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
@@ -20,24 +16,6 @@
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
-
-// What the node answers, besides the sentences about paths: EndText() puts in names and numbers.
-namespace sentences {
-
-inline constexpr Sentence kShutDown = "the node is being shut down";
-inline constexpr Sentence kBusyTracing = "the node is tracing \"<name>\": call ~cancel or wait for its end";
-inline constexpr Sentence kBusySending =
-    "the node is sending the last increments of \"<name>\": call ~cancel or wait for its end";
-inline constexpr Sentence kCancelling = "cancelling the trace of \"<name>\"";
-inline constexpr Sentence kAnsweredNow = "the caller is answered now; the last increments of \"<name>\" are still sent";
-inline constexpr Sentence kNotRunning = "no trace is running";
-inline constexpr Sentence kDropped = "no trace is running; <value> increments that were still to be sent are dropped";
-inline constexpr Sentence kStoppedReading = "the caller asked for it while the bag to resume was read";
-inline constexpr Sentence kAdmitsMemory = "the node admits <value> MB of memory (~<name>)";
-inline constexpr Sentence kAdmitsTime = "the node admits <digits> s (~<name>)";
-
-}  // namespace sentences
-
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -45,16 +23,11 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kStatusPeriod{200};
 constexpr std::chrono::milliseconds kMemoryPeriod{10};
 
+constexpr char kShutDown[] = "the node is being shut down";
+
 // A trace that is asked to end for its time has as much longer: a tenth of it, and so many seconds.
 constexpr double kMoreTime = 0.1;
 constexpr double kMoreSeconds = 10.0;
-
-// What ends a request before it is traced.
-struct Refusal : std::runtime_error {
-  Refusal(std::uint8_t status_of_response, const std::string& why)
-      : std::runtime_error(why), status(status_of_response) {}
-  std::uint8_t status;
-};
 
 void Tell(std::uint8_t status, const std::string& message, TraceService::Response* response) {
   response->status = status;
@@ -66,12 +39,8 @@ void TellEnd(std::uint8_t end_reason, const std::string& message, TraceService::
   response->end_reason = end_reason;
 }
 
-std::string Text(std::string_view sentence, const std::string& name = {}, Number value = 0.0) {
-  return EndText({{sentence, name, value}});
-}
-
 std::string MemoryText(const TraceLimits& limits) {
-  return Text(sentences::kAdmitsMemory, names::kMaxMemory, limits.max_memory);
+  return "the node admits " + std::to_string(limits.max_memory) + " MB of memory (~" + names::kMaxMemory + ")";
 }
 
 StreamOptions StreamOptionsOf(const NodeParameters& parameters) {
@@ -130,11 +99,12 @@ void TraceService::FinishStream(double seconds) {
 bool TraceService::Admit(const std::string& scene_name, Response* response) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (shutting_down_) {
-    Tell(Response::SHUTTING_DOWN, Text(sentences::kShutDown), response);
+    Tell(Response::SHUTTING_DOWN, kShutDown, response);
     return false;
   }
   if (running_) {
-    Tell(Response::BUSY, Text(streaming_ ? sentences::kBusySending : sentences::kBusyTracing, running_scene_),
+    const std::string work = streaming_ ? "sending the last increments of" : "tracing";
+    Tell(Response::BUSY, "the node is " + work + " \"" + running_scene_ + "\": call ~cancel or wait for its end",
          response);
     return false;
   }
@@ -154,14 +124,14 @@ void TraceService::Run(const std::function<contact_path_msgs::TraceRequest()>& r
   try {
     try {
       Serve(request(), observer, response);
-    } catch (const Refusal& refusal) {
-      Tell(refusal.status, refusal.what(), response);
+    } catch (const LimitExceeded& error) {
+      Tell(Response::LIMIT_EXCEEDED, error.what(), response);
     } catch (const InvalidRequest& error) {
       Tell(Response::INVALID_REQUEST, error.what(), response);
     } catch (const BagError& error) {
       Tell(Response::BAG_FAILED, error.what(), response);
     } catch (const ReadingCancelled&) {
-      TellStop(Text(sentences::kStoppedReading), response);
+      TellStop("the caller asked for it while the bag to resume was read", response);
       response->end_reason_name = EndReasonName(response->end_reason);
     } catch (const std::bad_alloc&) {
       Tell(Response::LIMIT_EXCEEDED, MemoryText(parameters_.limits), response);
@@ -203,12 +173,16 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
     RequestStop(StopCause::kCancel);
     answer_at_once_ = true;
     response.success = true;
-    response.message = Text(streaming_ ? sentences::kAnsweredNow : sentences::kCancelling, running_scene_);
+    const std::string scene = '"' + running_scene_ + '"';
+    response.message = streaming_ ? "the caller is answered now; the last increments of " + scene + " are still sent"
+                                  : "cancelling the trace of " + scene;
     return true;
   }
   const std::size_t dropped = increments_publisher_.Discard();
   response.success = dropped > 0;
-  response.message = Text(dropped > 0 ? sentences::kDropped : sentences::kNotRunning, {}, static_cast<long>(dropped));
+  response.message = "no trace is running";
+  if (dropped > 0)
+    response.message += "; " + std::to_string(dropped) + " increments that were still to be sent are dropped";
   return true;
 }
 
@@ -220,8 +194,16 @@ void TraceService::Serve(contact_path_msgs::TraceRequest asked, const TraceObser
   response->bag = bag.file_name();
   Announce(job, bag, observer);
   RunTrace(job, observer, &bag, response);
-  TellResult(response);
-  Close(&bag, response);
+  response->increments = status_.increments;
+  response->end_reason_name = EndReasonName(response->end_reason);
+  response->limit_points = ToMessages(summary_.limit_points());
+  response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
+  try {
+    bag.WriteResult(ToResult<contact_path_msgs::TraceResult>(*response));
+    bag.Close();
+  } catch (const BagError& error) {
+    if (response->status != Response::BAG_FAILED) Tell(Response::BAG_FAILED, error.what(), response);
+  }
   WaitForStream(observer);
 }
 
@@ -231,15 +213,13 @@ TraceService::Job TraceService::Accept(contact_path_msgs::TraceRequest asked, co
   if (asked.resume.empty()) {
     job.message = std::move(asked);
   } else {
-    TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked, [&] { return StopWanted(observer); });
+    RecordedTrace so_far = ReadTraceSoFar(parameters_.bag_directory, asked, [&] { return StopWanted(observer); });
     job.message = ToMessage(so_far.request);
     job.message.resume = asked.resume;
     job.so_far = std::move(so_far.increments);
   }
-  const contact_path_msgs::TraceRequest& message = job.message;
-  const std::string exceeded = ExceededLimit(message.scene, message.options, message.program, parameters_.limits);
-  if (!exceeded.empty()) throw Refusal(Response::LIMIT_EXCEEDED, exceeded);
-  job.request = FromMessage(message.scene, message.options, message.program);
+  CheckLimits(job.message, parameters_.limits);
+  job.request = FromMessage(job.message);
   std::vector<Violation> violations = Validate(job.request);
   if (!violations.empty()) throw InvalidRequest(std::move(violations));
   return job;
@@ -259,22 +239,6 @@ void TraceService::Announce(const Job& job, const BagRecorder& bag, const TraceO
   if (observer.on_start) observer.on_start();
   if (const std::string advice = BlasAdvice(job.request.scene.nodes.size()); !advice.empty())
     ROS_WARN_ONCE("%s", advice.c_str());
-}
-
-void TraceService::TellResult(Response* response) {
-  response->increments = status_.increments;
-  response->end_reason_name = EndReasonName(response->end_reason);
-  response->limit_points = ToMessages(summary_.limit_points());
-  response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
-}
-
-void TraceService::Close(BagRecorder* bag, Response* response) {
-  try {
-    bag->WriteResult(ToResult(*response));
-    bag->Close();
-  } catch (const BagError& error) {
-    if (response->status != Response::BAG_FAILED) Tell(Response::BAG_FAILED, error.what(), response);
-  }
 }
 
 void TraceService::WaitForStream(const TraceObserver& observer) {
@@ -319,9 +283,10 @@ void TraceService::TellStop(const std::string& cancelled, Response* response) co
   const TraceLimits& limits = parameters_.limits;
   TellEnd(Response::END_CANCELLED, cancelled, response);
   if (stop_cause_ == StopCause::kTimeLimit)
-    TellEnd(Response::END_TIME_LIMIT, Text(sentences::kAdmitsTime, names::kMaxSeconds, limits.max_seconds), response);
+    TellEnd(Response::END_TIME_LIMIT,
+            "the node admits " + RoundedText(limits.max_seconds, 6) + " s (~" + names::kMaxSeconds + ")", response);
   if (stop_cause_ == StopCause::kMemoryLimit) TellEnd(Response::END_MEMORY_LIMIT, MemoryText(limits), response);
-  if (stop_cause_ == StopCause::kShutdown) Tell(Response::SHUTTING_DOWN, Text(sentences::kShutDown), response);
+  if (stop_cause_ == StopCause::kShutdown) Tell(Response::SHUTTING_DOWN, kShutDown, response);
 }
 
 void TraceService::TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag) {

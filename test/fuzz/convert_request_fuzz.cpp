@@ -74,20 +74,23 @@ void CheckConverter(std::vector<std::uint8_t> bytes) {
 
   TraceLimits limits;
   limits.max_nodes = limits.max_elements = limits.max_contacts = kMostParts;
-  const std::string exceeded = ExceededLimit(message.scene, message.options, message.program, limits);
-  if (!exceeded.empty()) return RequireLine(exceeded);
+  try {
+    CheckLimits(message, limits);
+  } catch (const LimitExceeded& exceeded) {
+    return RequireLine(exceeded.what());
+  }
   Require(message.scene.nodes.size() <= kMostParts && message.program.size() <= kMostParts, "limits hold");
 
   TraceRequest request;
   try {
-    request = FromMessage(message.scene, message.options, message.program);
+    request = FromMessage(message);
   } catch (const InvalidRequest& refused) {
     return RequireLines(refused.violations());
   }
   RequireLines(Validate(request));
   const msgs::TraceRequest back = ToMessage(request);
   Require(Bytes(back) == Bytes(Normalised(message)), "a request is the same after it was converted and back");
-  const std::string difference = FirstDifference(request, FromMessage(back.scene, back.options, back.program));
+  const std::string difference = FirstDifference(request, FromMessage(back));
   if (!difference.empty()) throw std::logic_error("not the same after it was converted again: " + difference);
 }
 

@@ -37,23 +37,22 @@ Message ThroughTheWire(const Message& message) {
 TEST(ConvertTest, RequestSurvivesTheWayThroughMessages) {
   const TraceRequest request = FilledRequest();
   const msgs::TraceRequest message = ThroughTheWire(ToMessage(request));
-  EXPECT_EQ(FirstDifference(FromMessage(message.scene, message.options, message.program), request), "");
+  EXPECT_EQ(FirstDifference(FromMessage(message), request), "");
   EXPECT_NE(FirstDifference(TraceRequest(), request), "");
   EXPECT_EQ(message.scene.nodes[1].y, request.scene.nodes[1].y);
   EXPECT_EQ(message.scene.bars[0].strain, ToString(request.scene.bars[0].strain));
 }
 
 TEST(ConvertTest, FieldsLeftOutHaveTheDefaultsOfTheCore) {
-  msgs::Scene scene;
-  msgs::TraceOptions options;
+  msgs::TraceRequest message;
   TraceRequest defaults;
-  scene.bars.resize(1);
-  scene.obstacles.resize(1);
-  options.branch_choices.resize(1);
+  message.scene.bars.resize(1);
+  message.scene.obstacles.resize(1);
+  message.options.branch_choices.resize(1);
   defaults.scene.bars.resize(1);
   defaults.scene.obstacles.resize(1);
   defaults.options.branch_choices.resize(1);
-  EXPECT_EQ(FirstDifference(FromMessage(scene, options, {}), defaults), "");
+  EXPECT_EQ(FirstDifference(FromMessage(message), defaults), "");
 }
 
 TEST(ConvertTest, RefusesEveryWordThatIsNotKnown) {
@@ -63,7 +62,7 @@ TEST(ConvertTest, RefusesEveryWordThatIsNotKnown) {
   message.options.method = "magic";
   message.options.accuracy = "perfect";
   try {
-    FromMessage(message.scene, message.options, message.program);
+    FromMessage(message);
     FAIL() << "was not refused";
   } catch (const InvalidRequest& error) {
     ASSERT_EQ(error.violations().size(), 4U);
@@ -388,8 +387,8 @@ TEST(ConvertTest, ResultsHoldTheResponse) {
     EXPECT_EQ(result.limit_points[1].stage, 2U);
     EXPECT_EQ(result.limit_points[1].kind, msgs::Increment::CORNER_LIMIT);
   };
-  expect_same(ThroughTheWire(ToResult(response)));
-  expect_same(ThroughTheWire(ToActionResult(response)));
+  expect_same(ThroughTheWire(ToResult<msgs::TraceResult>(response)));
+  expect_same(ThroughTheWire(ToResult<msgs::TracePathResult>(response)));
 }
 
 }  // namespace

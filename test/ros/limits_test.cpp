@@ -40,8 +40,14 @@ msgs::TraceRequest LargestRequest() {
   return request;
 }
 
-std::string Exceeded(const msgs::TraceRequest& request) {
-  return ExceededLimit(request.scene, request.options, request.program, SmallLimits());
+// The limit that the request exceeds, in a line; empty where it is admitted.
+std::string Exceeded(const msgs::TraceRequest& request, const TraceLimits& limits = SmallLimits()) {
+  try {
+    CheckLimits(request, limits);
+    return "";
+  } catch (const LimitExceeded& exceeded) {
+    return exceeded.what();
+  }
 }
 
 TEST(LimitsTest, AdmitsWhatReachesEveryLimit) { EXPECT_EQ(Exceeded(LargestRequest()), ""); }
@@ -96,9 +102,7 @@ TEST(LimitsTest, NamesWhatIsTooLargeInAProgram) {
   largest.program[0].loads.resize(1);  // 2 in this stage, 2 in the next
   TraceLimits limits;
   limits.max_elements = 4;
-  const auto exceeded = [&](const msgs::TraceRequest& request) {
-    return ExceededLimit(request.scene, request.options, request.program, limits);
-  };
+  const auto exceeded = [&](const msgs::TraceRequest& request) { return Exceeded(request, limits); };
   EXPECT_EQ(exceeded(largest), "");
 
   for (const auto enlarge : {+[](msgs::Stage* stage) { stage->support_motions.resize(2); },

@@ -35,23 +35,16 @@ struct RecordedTrace {
 // before each message: true throws ReadingCancelled. It may be empty.
 std::vector<RecordedTrace> ReadTraces(const std::string& file, const std::function<bool()>& cancelled = {});
 
-// The only trace in a bag. Throws BagError where there are several, too.
-RecordedTrace ReadTrace(const std::string& file, const std::function<bool()>& cancelled = {});
-
-struct TraceSoFar {
-  TraceRequest request;
-  std::vector<Increment> increments;  // from increment 0; the bag proves them
-};
-
-// Throws std::runtime_error, one line, for a bag that cannot be read and for one whose increments are not proved
-// (verify/). `cancelled` is asked often: true throws ReadingCancelled. It may be empty.
-TraceSoFar ReadTraceSoFar(const std::string& bag, const std::function<bool()>& cancelled);
+// The only trace in a bag, whose increments, from increment 0, the bag proves. Throws std::runtime_error, one line, for
+// a bag that cannot be read or holds several traces, and for one whose increments are not proved (verify/). `cancelled`
+// is asked often: true throws ReadingCancelled. It may be empty.
+RecordedTrace ReadTraceSoFar(const std::string& bag, const std::function<bool()>& cancelled);
 
 // The same for a request of the node that names a bag to resume: a file in `directory`, by its plain name. The limit of
 // the number of increments is the request's if it has one. Throws InvalidRequest (scene/validate.h) for any other name,
 // for a bag as above, and for a request that also has a scene, a program or other options.
-TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request,
-                          const std::function<bool()>& cancelled);
+RecordedTrace ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request,
+                             const std::function<bool()>& cancelled);
 
 }  // namespace contact_path
 

@@ -16,15 +16,21 @@ namespace contact_path {
 
 // Throws InvalidRequest (scene/validate.h) for words that are not known, with keys such as "scene.bars[0].strain".
 // Every other rule is left to Validate().
-TraceRequest FromMessage(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
-                         const std::vector<contact_path_msgs::Stage>& program);
+TraceRequest FromMessage(const contact_path_msgs::TraceRequest& message);
 
 // Words are written out, also where they are the default.
 contact_path_msgs::TraceRequest ToMessage(const TraceRequest& request);
 
-// The same fields.
-contact_path_msgs::TraceRequest ToRequest(const contact_path_msgs::TracePathRequest& request);
-contact_path_msgs::TraceRequest ToRequest(const contact_path_msgs::TracePathGoal& goal);
+// The same fields: of TracePathRequest, or of TracePathGoal.
+template <typename Request>
+contact_path_msgs::TraceRequest ToRequest(const Request& request) {
+  contact_path_msgs::TraceRequest same;
+  same.scene = request.scene;
+  same.options = request.options;
+  same.program = request.program;
+  same.resume = request.resume;
+  return same;
+}
 
 // Leaves `header` and `trace_id` to the caller. full_state_every: as in TraceOptions.
 contact_path_msgs::Increment ToMessage(const Increment& increment, int full_state_every = 1);
@@ -50,9 +56,19 @@ std::string EndMessage(const std::string& name, const std::string& why, const Pa
 // OK, ENDED_EARLY, or INVALID_REQUEST for a branch that does not exist.
 std::uint8_t StatusOf(const TraceResult& result);
 
-// The same fields.
-contact_path_msgs::TraceResult ToResult(const contact_path_msgs::TracePathResponse& response);
-contact_path_msgs::TracePathResult ToActionResult(const contact_path_msgs::TracePathResponse& response);
+// The same fields, as TraceResult, or as TracePathResult.
+template <typename Result>
+Result ToResult(const contact_path_msgs::TracePathResponse& response) {
+  Result result;
+  result.status = response.status;
+  result.message = response.message;
+  result.increments = response.increments;
+  result.end_reason = response.end_reason;
+  result.end_reason_name = response.end_reason_name;
+  result.bag = response.bag;
+  result.limit_points = response.limit_points;
+  return result;
+}
 
 }  // namespace contact_path
 

@@ -2,8 +2,8 @@
 #ifndef CONTACT_PATH_ROS_NODE_PARAMETERS_H_
 #define CONTACT_PATH_ROS_NODE_PARAMETERS_H_
 
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <ros/node_handle.h>
 
@@ -25,10 +25,14 @@ struct TraceLimits {
   void Validate() const;
 };
 
-// One line naming what exceeds a limit, its value and the limit; empty where all is admitted. Allocates nothing that
-// grows with the request.
-std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
-                          const std::vector<contact_path_msgs::Stage>& program, const TraceLimits& limits);
+// what() is one line naming what exceeds a limit, its value and the limit.
+class LimitExceeded : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws LimitExceeded. Allocates nothing that grows with the request.
+void CheckLimits(const contact_path_msgs::TraceRequest& request, const TraceLimits& limits);
 
 // Parameters of the node, by their names in names.h.
 struct NodeParameters {

@@ -82,8 +82,6 @@ class TraceService {
   Job Accept(contact_path_msgs::TraceRequest asked, const TraceObserver& observer);
   void Announce(const Job& job, const BagRecorder& bag, const TraceObserver& observer);
   void RunTrace(const Job& job, const TraceObserver& observer, BagRecorder* bag, Response* response);
-  void TellResult(Response* response);
-  void Close(BagRecorder* bag, Response* response);
   void TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag);
   contact_path_msgs::TracePathFeedback FeedbackOn(const contact_path_msgs::Increment& increment) const;
   void Log(const Response& response) const;
