@@ -56,13 +56,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-// Increments could not be written.
-class WriteError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-// Takes each increment as it is accepted; throws WriteError.
+// Takes each increment as it is accepted; throws std::runtime_error where it cannot be written.
 using Sink = std::function<void(const Increment&)>;
 
 // Set by SIGINT and SIGTERM.
@@ -94,39 +88,29 @@ std::string OptionMeant(const CLI::App& app) {
 }
 
 void DeclareOptions(CLI::App& app, Arguments& arguments) {
+  const auto add = [&app](const char* name, auto& value, const char* type, const char* description) {
+    return app.add_option(name, value, description)->type_name(type);
+  };
   CLI::Option* const scene = app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)");
-  app.add_option("--csv", arguments.csv_file,
-                 "Write the increments to this file; -, or none and no --bag: standard output")
-      ->type_name("FILE");
+  add("--csv", arguments.csv_file, "FILE",
+      "Write the increments to this file; -, or none and no --bag: standard output");
 #ifdef CONTACT_PATH_WITH_ROS
-  app.add_option("--bag", arguments.bag_file, "Record the trace to this bag too")->type_name("FILE");
-  CLI::Option* const resume =
-      app.add_option("--resume", arguments.resume,
-                     "Go on with the trace of this bag; of its increments, those that can be kept are")
-          ->type_name("BAG");
-  scene->excludes(resume);
+  add("--bag", arguments.bag_file, "FILE", "Record the trace to this bag too");
+  scene->excludes(add("--resume", arguments.resume, "BAG",
+                      "Go on with the trace of this bag; of its increments, those that can be kept are"));
 #else
   scene->required();
 #endif
-  app.add_option("--log", arguments.log_file,
-                 "Write each trial step, increment and event to this file too, as a JSON object a line")
-      ->type_name("FILE");
-  app.add_option("--method", arguments.method, "branch or mpec, instead of the scene's")
-      ->type_name("NAME")
+  add("--log", arguments.log_file, "FILE",
+      "Write each trial step, increment and event to this file too, as a JSON object a line");
+  add("--method", arguments.method, "NAME", "branch or mpec, instead of the scene's")->needs(scene);
+  add("--accuracy", arguments.accuracy, "NAME", "fast, balanced or accurate, instead of the scene's")->needs(scene);
+  add("--friction-law", arguments.friction_law, "NAME",
+      "incremental (Coulomb's law) or total (holonomic), instead of the scene's")
       ->needs(scene);
-  app.add_option("--accuracy", arguments.accuracy, "fast, balanced or accurate, instead of the scene's")
-      ->type_name("NAME")
-      ->needs(scene);
-  app.add_option("--friction-law", arguments.friction_law,
-                 "incremental (Coulomb's law) or total (holonomic), instead of the scene's")
-      ->type_name("NAME")
-      ->needs(scene);
-  app.add_option("--step", arguments.step, "Increment length, instead of the scene's; 0 = automatic")
-      ->type_name("NUMBER")
-      ->needs(scene);
-  app.add_option("--max-increments", arguments.max_increments,
-                 "Largest number, instead of that of the scene or bag; 0 = 1000 for each stage")
-      ->type_name("NUMBER");
+  add("--step", arguments.step, "NUMBER", "Increment length, instead of the scene's; 0 = automatic")->needs(scene);
+  add("--max-increments", arguments.max_increments, "NUMBER",
+      "Largest number, instead of that of the scene or bag; 0 = 1000 for each stage");
   app.add_flag("--events", arguments.events,
                "Print each event and the branches from there on standard error: what branch_choices chooses from");
   app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless what was asked for is not reached");
@@ -161,19 +145,16 @@ TraceRequest ReadRequest(const Arguments& arguments) {
 // Throws InvalidRequest; std::runtime_error for a bag that cannot be gone on from.
 Task ReadTask(const Arguments& arguments) {
   Task task;
+  if (!arguments.scene_file.empty()) task.request = ReadRequest(arguments);
 #ifdef CONTACT_PATH_WITH_ROS
   if (arguments.scene_file.empty()) {
     HandleSignals();
-    TraceSoFar so_far = ReadTraceSoFar(arguments.resume, IsCancelled);
+    RecordedTrace so_far = ReadTraceSoFar(arguments.resume, IsCancelled);
     // The CSV has all states.
     so_far.increments.resize(RestoreStates(so_far.request, &so_far.increments));
     task.request = std::move(so_far.request);
     task.increments = std::move(so_far.increments);
-  } else {
-    task.request = ReadRequest(arguments);
   }
-#else
-  task.request = ReadRequest(arguments);
 #endif
   if (arguments.max_increments) task.request.options.max_increments = *arguments.max_increments;
   std::vector<Violation> violations = Validate(task.request);
@@ -204,7 +185,7 @@ std::optional<std::ofstream> Open(const char* option, const std::string& file) {
 
 // Flushes, so that every increment is out before the next one is computed.
 void RequireWritten(std::ostream& out, const std::string& name) {
-  if (!out.flush()) throw WriteError("cannot write " + name + ": " + std::strerror(errno));
+  if (!out.flush()) throw std::runtime_error("cannot write " + name + ": " + std::strerror(errno));
 }
 
 Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string& name) {
@@ -217,7 +198,8 @@ Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string&
   };
 }
 
-// Traces with the increments going to `csv` and `log_out`, where these are not null. Throws WriteError.
+// Traces with the increments going to `csv` and `log_out`, where these are not null. Throws std::runtime_error where
+// they cannot be written.
 ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream* csv, std::ostream* log_out) {
   const TraceRequest& request = task.request;
   const ExpandedRequest expanded(request);

@@ -6,10 +6,7 @@
 #include <ostream>
 #include <string>
 #include <type_traits>
-#include <vector>
 
-#include "contact_path/contact/contact_state.h"
-#include "contact_path/law/slack_bar.h"
 #include "contact_path/scene/field.h"
 
 namespace contact_path {
@@ -23,8 +20,7 @@ Json JsonOf(const Value& value) {
   Json json;
   if constexpr (kIsPart<Value>) {
     ForEachField<Value>([&](const auto& field) { json[std::string(field.name)] = JsonOf(value.*field.member); });
-  } else if constexpr (kIsPartList<Value> || std::is_same_v<Value, std::vector<ContactState>> ||
-                       std::is_same_v<Value, std::vector<BarState>>) {
+  } else if constexpr (kIsList<Value>) {
     json = Json::array();
     for (const auto& item : value) json.push_back(JsonOf(item));
   } else if constexpr (std::is_enum_v<Value>) {

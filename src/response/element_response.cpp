@@ -1,6 +1,5 @@
 #include "contact_path/response/element_response.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 
