@@ -120,21 +120,16 @@ void IncrementPublisher::Run() {
   for (;;) {
     filled_.wait(lock, [this] { return ending_ || !queue_.empty(); });
     if (ending_) return;
-    const Seconds pause = SendBatch();
+    Seconds pause(0.0);
+    while (!queue_.empty() && pause < kBatch) {
+      const Entry entry = std::move(queue_.front());
+      queue_.pop_front();
+      pause += Send(entry);
+    }
     emptied_.notify_all();
     // No batch makes up for one that was late: a machine that is busy is so for the subscribers, too.
     filled_.wait_for(lock, pause, [this] { return ending_; });
   }
-}
-
-IncrementPublisher::Seconds IncrementPublisher::SendBatch() {
-  Seconds used(0.0);
-  while (!queue_.empty() && used < kBatch) {
-    const Entry entry = std::move(queue_.front());
-    queue_.pop_front();
-    used += Send(entry);
-  }
-  return used;
 }
 
 IncrementPublisher::Seconds IncrementPublisher::Send(const Entry& entry) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact_path/linear/blas.h"
+#include "contact_path/path/end.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"

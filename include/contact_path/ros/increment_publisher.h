@@ -68,7 +68,6 @@ class IncrementPublisher {
   };
 
   void Run();                        // on the thread
-  Seconds SendBatch();               // the pause after it; mutex_ is held
   Seconds Send(const Entry& entry);  // the time that it has at the pace; mutex_ is held
   void Skip();                       // counts an increment that nobody gets in header.seq; mutex_ is held
   void WaitUntil(const std::function<bool()>& condition, const Interrupted& interrupted,
