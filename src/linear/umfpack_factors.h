@@ -38,8 +38,8 @@ class UmfpackFactors {
   UmfpackFactors(const UmfpackFactors&) = delete;
   UmfpackFactors& operator=(const UmfpackFactors&) = delete;
 
-  // Once. values: of the entries of the pattern, finite. False if the matrix is singular. Throws LinearSolverError
-  // where the factorisation fails otherwise.
+  // A single call for each object. values: of the entries of the pattern, finite. False if the matrix is singular.
+  // Throws LinearSolverError where the factorisation fails otherwise.
   bool Factorize(const UmfpackAnalysis& analysis, const Eigen::VectorXd& values);
 
   // Of the pivots, smallest over largest.
