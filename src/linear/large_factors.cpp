@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "contact_path/linear/large_system.h"
-#include "contact_path/linear/orderings.h"
 #include "contact_path/tolerances.h"
 #include "linear/ordering.h"
 

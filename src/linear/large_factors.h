@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "contact_path/linear/frame.h"
-#include "contact_path/linear/orderings.h"
 #include "linear/low_rank_update.h"
 #include "linear/ordering.h"
 

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "contact_path/linear/orderings.h"
-
 namespace contact_path {
 namespace {
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "contact_path/linear/orderings.h"
+#include "contact_path/linear/frame.h"
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
