@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
+#include <utility>
 
 namespace contact_path {
 
@@ -15,15 +16,27 @@ class LowRankUpdate {
   using Differences = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
   // A = A0.
-  void Clear();
+  void Clear() { moved_.resize(0, 0); }
   // moved: Z, n x k; differences: D, k x n. False if they leave C too few digits.
-  bool Set(Eigen::MatrixXd moved, const Differences& differences);
+  bool Set(Eigen::MatrixXd moved, const Differences& differences) {
+    constexpr double kLeastCoupling = 1e-4;  // reciprocal condition of C, which takes four digits at most
+    moved_ = std::move(moved);
+    differences_ = differences;
+    const Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(moved_.cols(), moved_.cols()) + differences_ * moved_;
+    if (!coupling.allFinite()) return false;
+    coupling_.compute(coupling);
+    return coupling_.rcond() > kLeastCoupling;
+  }
 
   bool IsEmpty() const { return moved_.cols() == 0; }
   // From X = A0^-1 B to A^-1 B.
-  void Correct(Eigen::Ref<Eigen::MatrixXd> X) const;
+  void Correct(Eigen::Ref<Eigen::MatrixXd> X) const {
+    if (!IsEmpty()) X -= moved_ * coupling_.solve(differences_ * X);
+  }
   // From b to c, A'^-1 b = A0'^-1 c.
-  void PrepareTransposed(Eigen::VectorXd* b) const;
+  void PrepareTransposed(Eigen::VectorXd* b) const {
+    if (!IsEmpty()) *b -= differences_.transpose() * coupling_.transpose().solve(moved_.transpose() * *b);
+  }
   bool TurnsDeterminant() const { return !IsEmpty() && coupling_.determinant() < 0.0; }
 
  private:
