@@ -101,15 +101,6 @@ void CheckExpansion(const contact_path_msgs::Scene& scene, const TraceLimits& li
   RequireWithin("contacts of all nodes of groups", contacts, LimitOf<ContactCandidate>(limits));
 }
 
-void CheckScene(const contact_path_msgs::Scene& scene, const TraceLimits& limits) {
-  ForEachFieldPair<Scene, contact_path_msgs::Scene>([&](const auto& core_field, const auto& field) {
-    using List = typename std::decay_t<decltype(core_field)>::Value;
-    if constexpr (kIsPartList<List>)
-      CheckList<typename List::value_type>("scene." + std::string(field.name), scene.*field.member, limits);
-  });
-  CheckExpansion(scene, limits);
-}
-
 std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options, std::size_t stages) {
   TraceOptions core_options;
   core_options.max_increments = std::max(options.max_increments, 0);
@@ -128,7 +119,12 @@ void CheckLimits(const contact_path_msgs::TraceRequest& request, const TraceLimi
   if (bytes > kMostBytes)
     throw LimitExceeded("the request has " + std::to_string(bytes) + " bytes, but the node admits " +
                         std::to_string(kMostBytes));
-  CheckScene(scene, limits);
+  ForEachFieldPair<Scene, contact_path_msgs::Scene>([&](const auto& core_field, const auto& field) {
+    using List = typename std::decay_t<decltype(core_field)>::Value;
+    if constexpr (kIsPartList<List>)
+      CheckList<typename List::value_type>("scene." + std::string(field.name), request.scene.*field.member, limits);
+  });
+  CheckExpansion(scene, limits);
   const Bound elements{names::kMaxElements, limits.max_elements}, contacts{names::kMaxContacts, limits.max_contacts};
   RequireWithin("loads and motions of program", ProgramEntries(program), elements);
   RequireWithin("loads of all stages of program", LoadsOfAllStages(scene, program), elements);
