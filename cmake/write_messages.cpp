@@ -60,9 +60,10 @@ template <typename Field>
 std::string CommentOf(const Field& field) {
   std::string comment;
   if constexpr (std::is_enum_v<typename Field::Value>) {
-    for (const auto& [word, value] : Words<typename Field::Value>::kAll)
+    ForEachWord<typename Field::Value>([&](std::string_view word, auto value) {
       comment += (comment.empty() ? "\"" : ", \"") + std::string(word) + "\"" +
-                 (value == Words<typename Field::Value>::kDefault ? " (also \"\")" : "");
+                 (value == DefaultOf(value) ? " (also \"\")" : "");
+    });
   }
   const std::string unit = Power("length", field.unit.length) + Power("force", field.unit.force) +
                            Power("load factor", field.unit.load_factor);

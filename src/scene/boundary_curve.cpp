@@ -91,29 +91,32 @@ std::array<int, 2> SymmetryAxes(const BoundarySurface& surface, const Scene& sce
   return {axis(surface.nodes[0], surface.nodes[1]), axis(surface.nodes[count - 1], surface.nodes[count - 2])};
 }
 
+std::vector<std::vector<std::string_view>> NodesRoundElements(const Solid& solid) {
+  const std::size_t count = solid.NodesPerElement();
+  std::vector<std::vector<std::string_view>> elements;
+  if (!IsCellShape(count)) return elements;
+  for (std::size_t first = 0; first + count <= solid.nodes.size(); first += count) {
+    elements.emplace_back();
+    for (const std::size_t place : CellBoundary(count)) elements.back().push_back(solid.nodes[first + place]);
+  }
+  return elements;
+}
+
 std::vector<std::vector<std::string_view>> ElementsBehind(const BoundarySurface& surface, const Scene& scene) {
   std::set<std::pair<std::string_view, std::string_view>> edges;
   const std::size_t nodes = surface.nodes.size();
   for (std::size_t i = 0; i < (surface.closed ? nodes : nodes - 1); ++i)
     edges.emplace(surface.nodes[i], surface.nodes[(i + 1) % nodes]);
+  const auto has_edge = [&](const std::vector<std::string_view>& element) {
+    for (std::size_t i = 0; i < element.size(); ++i)
+      if (edges.count({element[(i + 1) % element.size()], element[i]}) > 0) return true;  // walked the other way
+    return false;
+  };
   std::vector<std::vector<std::string_view>> behind;
   for (const Solid& solid : scene.solids) {
-    const std::size_t count = solid.NodesPerElement();
-    if (!IsCellShape(count)) continue;
-    const std::vector<std::size_t>& boundary = CellBoundary(count);
-    std::vector<std::vector<std::string_view>> elements;
-    bool has_edge = false;
-    for (std::size_t first = 0; first + count <= solid.nodes.size(); first += count) {
-      elements.emplace_back();
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::string &from = solid.nodes[first + boundary[i]],
-                          &to = solid.nodes[first + boundary[(i + 1) % count]];
-        elements.back().push_back(from);
-        // The surface is walked the other way.
-        has_edge = has_edge || edges.count({to, from}) > 0;
-      }
-    }
-    if (has_edge) behind.insert(behind.end(), elements.begin(), elements.end());
+    const std::vector<std::vector<std::string_view>> elements = NodesRoundElements(solid);
+    if (std::any_of(elements.begin(), elements.end(), has_edge))
+      behind.insert(behind.end(), elements.begin(), elements.end());
   }
   return behind;
 }

@@ -1,8 +1,8 @@
 #include "contact_path/scene/cell.h"
 
-#include <utility>
-
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace contact_path {
 namespace {
@@ -83,28 +83,28 @@ std::vector<CellPoint> SquarePoints(CellPoint (*point_at)(double, double)) {
   return points;
 }
 
+struct Cell {
+  std::vector<CellPoint> points;
+  std::vector<std::size_t> boundary;
+};
+
+// By number of nodes.
+const std::map<std::size_t, Cell>& Cells() {
+  static const std::map<std::size_t, Cell> cells = {
+      {3, {{{0.5, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, kLinearTriangle}}, {0, 1, 2}}},
+      {4, {SquarePoints(BilinearSquare), {0, 1, 2, 3}}},
+      {6, {TrianglePoints(), {0, 3, 1, 4, 2, 5}}},
+      {8, {SquarePoints(SerendipitySquare), {0, 4, 1, 5, 2, 6, 3, 7}}}};
+  return cells;
+}
+
 }  // namespace
 
-bool IsCellShape(std::size_t nodes) { return nodes == 3 || nodes == 4 || nodes == 6 || nodes == 8; }
+bool IsCellShape(std::size_t nodes) { return Cells().count(nodes) > 0; }
 
-const std::vector<CellPoint>& CellPoints(std::size_t nodes) {
-  static const std::vector<CellPoint> linear_triangle = {{0.5, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, kLinearTriangle}};
-  static const std::vector<CellPoint> quadratic_triangle = TrianglePoints();
-  static const std::vector<CellPoint> bilinear_square = SquarePoints(BilinearSquare);
-  static const std::vector<CellPoint> serendipity_square = SquarePoints(SerendipitySquare);
-  if (nodes == 3) return linear_triangle;
-  if (nodes == 6) return quadratic_triangle;
-  return nodes == 4 ? bilinear_square : serendipity_square;
-}
+const std::vector<CellPoint>& CellPoints(std::size_t nodes) { return Cells().at(nodes).points; }
 
-const std::vector<std::size_t>& CellBoundary(std::size_t nodes) {
-  static const std::vector<std::size_t> linear_triangle = {0, 1, 2}, quadratic_triangle = {0, 3, 1, 4, 2, 5};
-  static const std::vector<std::size_t> bilinear_square = {0, 1, 2, 3};
-  static const std::vector<std::size_t> serendipity_square = {0, 4, 1, 5, 2, 6, 3, 7};
-  if (nodes == 3) return linear_triangle;
-  if (nodes == 6) return quadratic_triangle;
-  return nodes == 4 ? bilinear_square : serendipity_square;
-}
+const std::vector<std::size_t>& CellBoundary(std::size_t nodes) { return Cells().at(nodes).boundary; }
 
 std::vector<PlacedPoint> PlacePoints(const std::vector<double>& positions) {
   const std::size_t nodes = positions.size() / 2;

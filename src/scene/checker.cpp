@@ -1,21 +1,11 @@
 #include "scene/checker.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "contact_path/scene/quantity.h"
 
 namespace contact_path {
-namespace {
-
-// Names become columns of a table and parts of "<node>@<obstacle>", "<node>@<surface>" and "<node>.x".
-bool IsAllowedInName(char c) {
-  const auto code = static_cast<unsigned char>(c);
-  return code > 0x20 && code != 0x7f && std::string_view("@,\"./").find(c) == std::string_view::npos;
-}
-
-}  // namespace
 
 std::string TextOrQuotes(const std::string& text) { return text.empty() ? "\"\"" : text; }
 
@@ -26,19 +16,10 @@ std::string ListText(const std::vector<std::string>& names) {
   return text + (names.size() > kShown ? ", ...]" : "]");
 }
 
-const Node* Checker::KnownNode(const std::string& name) const {
-  const std::optional<std::size_t> place = index_.FindNode(name);
-  return place ? &request_.scene.nodes[*place] : nullptr;
-}
-
-const Obstacle* Checker::KnownObstacle(const std::string& name) const {
-  const std::optional<std::size_t> place = index_.FindObstacle(name);
-  return place ? &request_.scene.obstacles[*place] : nullptr;
-}
-
-const BoundarySurface* Checker::KnownSurface(const std::string& name) const {
-  const std::optional<std::size_t> place = index_.FindSurface(name);
-  return place ? &request_.scene.surfaces[*place] : nullptr;
+void Checker::CheckBody(const KeyPath& path, const std::string& body) {
+  if (body.empty()) return;
+  if (const Node* const node = KnownNode(body); node == nullptr || !IsBody(*node))
+    Add(path.Key("body"), body, "must name a body of the scene");
 }
 
 bool Checker::HasFreeComponent() const {
@@ -100,7 +81,7 @@ void Checker::CheckName(const KeyPath& key, const std::string& name, std::unorde
     Add(key, TextOrQuotes(name), "must not be empty");
   } else if (!CheckUtf8(key, name)) {
     return;
-  } else if (!std::all_of(name.begin(), name.end(), IsAllowedInName)) {
+  } else if (!IsFitForColumn(name)) {
     Add(key, name, "must not contain white space, control characters or any of @ , \" . /");
   } else if (!earlier->insert(name).second) {
     Add(key, name, "must be unique, but an earlier one has the same name");

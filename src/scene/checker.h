@@ -3,7 +3,9 @@
 #define CONTACT_PATH_SRC_SCENE_CHECKER_H_
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <unordered_set>
 #include <utility>
@@ -60,9 +62,15 @@ class Checker {
   }
 
   // Null for a name that the scene does not have.
-  const Node* KnownNode(const std::string& name) const;
-  const Obstacle* KnownObstacle(const std::string& name) const;
-  const BoundarySurface* KnownSurface(const std::string& name) const;
+  const Node* KnownNode(std::string_view name) const { return Known(index_.FindNode(name), GetScene().nodes); }
+  const Obstacle* KnownObstacle(std::string_view name) const {
+    return Known(index_.FindObstacle(name), GetScene().obstacles);
+  }
+  const BoundarySurface* KnownSurface(std::string_view name) const {
+    return Known(index_.FindSurface(name), GetScene().surfaces);
+  }
+  // Adds a violation unless the field `body` of a part is empty or names a body.
+  void CheckBody(const KeyPath& path, const std::string& body);
   // Whether a beam turns a node that the scene has.
   bool Turns(const std::string& node) const { return turning_[index_.Node(node)]; }
   // Whether a component of a node is free, or its rotation.
@@ -90,6 +98,18 @@ class Checker {
         for (std::size_t i = 0; i < value.size(); ++i) CheckText(key[i], value[i], field.text, earlier);
     });
     return found_ == found_before;
+  }
+
+  // Checks the fields of each part of a list, and then calls check(path of the part, part, whether its fields are
+  // sound).
+  template <typename Part, typename Check>
+  void CheckList(const KeyPath& list, const std::vector<Part>& parts, Check&& check) {
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const KeyPath path = list[i];
+      const bool sound = CheckFields(path, parts[i], &earlier);
+      check(path, parts[i], sound);
+    }
   }
 
   // Checks each number of a part and of the parts in it by itself: what needs no other field.
@@ -120,6 +140,10 @@ class Checker {
   bool CheckUtf8(const KeyPath& key, const std::string& name);
 
  private:
+  template <typename Part>
+  static const Part* Known(std::optional<std::size_t> place, const std::vector<Part>& parts) {
+    return place ? &parts[*place] : nullptr;
+  }
   template <typename Value>
   void CheckNumbersIn(const KeyPath& key, const Value& value, Range range) {
     if constexpr (std::is_same_v<Value, double>) CheckNumber(key, value, range);

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "contact_path/scene/cell.h"
-#include "scene/expand_tendon.h"
-#include "scene/idle_rotation.h"
+#include "contact_path/scene/scene_index.h"
+#include "scene/expansion_steps.h"
 #include "scene/input_bounds.h"
 #include "scene/pinned_twins.h"
 
@@ -48,11 +48,10 @@ struct GroupNodes {
 class Groups {
  public:
   // scene: expanded; must outlive the groups.
-  explicit Groups(const Scene& scene) {
+  explicit Groups(const Scene& scene)
+      : scene_(scene), nodes_(PlacesByName(scene.nodes)), surfaces_(PlacesByName(scene.surfaces)) {
     for (const Group& group : scene.groups) groups_.emplace(group.name, GroupNodes{&group.nodes, nullptr});
     for (const Beam& beam : scene.beams) groups_.emplace(beam.name, GroupNodes{&beam.nodes, &beam});
-    for (const BoundarySurface& surface : scene.surfaces) surfaces_.emplace(surface.name, &surface);
-    for (const Node& node : scene.nodes) nodes_.emplace(node.name, &node);
     for (std::size_t i = 0; i < scene.solids.size(); ++i)
       solids_[SolidName(scene.solids[i], i)].push_back(&scene.solids[i]);
     for (const Solid& solid : scene.solids) {
@@ -70,7 +69,7 @@ class Groups {
   }
   const BoundarySurface* FindSurface(const std::string& name) const {
     const auto found = surfaces_.find(name);
-    return found == surfaces_.end() ? nullptr : found->second;
+    return found == surfaces_.end() ? nullptr : &scene_.surfaces[found->second];
   }
   // All that have the name.
   std::vector<const Solid*> FindSolids(const std::string& name) const {
@@ -79,14 +78,9 @@ class Groups {
   }
   bool IsMidSide(const std::string& node) const { return mid_sides_.count(node) > 0; }
 
-  std::pair<double, double> Place(const std::string& node) const {
-    const Node& at = *nodes_.at(node);
-    return {at.x, at.y};
-  }
-  bool CanMove(const std::string& node) const {
-    const Node& at = *nodes_.at(node);
-    return !at.fixed_x || !at.fixed_y;
-  }
+  const Node& NodeOf(const std::string& name) const { return scene_.nodes[nodes_.at(name)]; }
+  std::array<double, 2> Place(const std::string& node) const { return {NodeOf(node).x, NodeOf(node).y}; }
+  bool CanMove(const std::string& node) const { return !NodeOf(node).fixed_x || !NodeOf(node).fixed_y; }
   bool CanMove(const BoundarySurface& surface) const {
     return std::any_of(surface.nodes.begin(), surface.nodes.end(),
                        [this](const std::string& node) { return CanMove(node); });
@@ -99,9 +93,9 @@ class Groups {
   }
 
  private:
+  const Scene& scene_;
   std::unordered_map<std::string_view, GroupNodes> groups_;
-  std::unordered_map<std::string_view, const BoundarySurface*> surfaces_;
-  std::unordered_map<std::string_view, const Node*> nodes_;
+  std::unordered_map<std::string_view, std::size_t> nodes_, surfaces_;
   std::unordered_map<std::string, std::vector<const Solid*>> solids_;
   std::unordered_set<std::string_view> mid_sides_;  // nodes of solids
 };
@@ -116,11 +110,8 @@ void ExpandTraction(const Load& load, const BoundarySurface& surface, const Grou
   };
   for (std::size_t i = 0; i + 1 < nodes.size();) {
     if (i + 2 < nodes.size() && groups.IsMidSide(nodes[i + 1])) {
-      const auto place = [&](std::size_t k) -> std::array<double, 2> {
-        const auto [x, y] = groups.Place(nodes[k]);
-        return {x, y};
-      };
-      const std::array<double, 3> lengths = ShapeLengths(place(i), place(i + 1), place(i + 2));
+      const std::array<double, 3> lengths =
+          ShapeLengths(groups.Place(nodes[i]), groups.Place(nodes[i + 1]), groups.Place(nodes[i + 2]));
       for (std::size_t k = 0; k < 3; ++k) give(nodes[i + k], lengths[k]);
       i += 2;
     } else {
@@ -257,11 +248,9 @@ void ExpandLoading(const Groups& groups, PinnedTwins* twins, Loading* loading, E
 }
 
 // Of an expanded scene but for its supports.
-void FixNodes(Scene* scene) {
+void FixNodes(const Groups& groups, Scene* scene) {
   if (scene->supports.empty()) return;
-  const Groups groups(*scene);
-  std::unordered_map<std::string_view, std::size_t> places;
-  for (std::size_t i = 0; i < scene->nodes.size(); ++i) places.emplace(scene->nodes[i].name, i);
+  const auto places = PlacesByName(scene->nodes);
   const std::vector<bool> turns = NodesThatTurn(*scene);
   for (const Support& support : std::exchange(scene->supports, {}))
     ForEachNode(support, groups, [&](const Support& on_node) {
@@ -276,22 +265,6 @@ void FixNodes(Scene* scene) {
 
 }  // namespace
 
-std::string BeamName(const Beam& beam, std::size_t place) {
-  return beam.name.empty() ? "beam" + std::to_string(place + 1) : beam.name;
-}
-
-std::string BarName(const Bar& bar, std::size_t place) {
-  return bar.name.empty() ? "bar" + std::to_string(place + 1) : bar.name;
-}
-
-std::string TendonName(const Tendon& tendon, std::size_t place) {
-  return tendon.name.empty() ? "tendon" + std::to_string(place + 1) : tendon.name;
-}
-
-std::string PinName(const Pin& pin, std::size_t place) {
-  return pin.name.empty() ? "pin" + std::to_string(place + 1) : pin.name;
-}
-
 std::vector<OneSidedBar> OneSidedBars(const Scene& scene) {
   std::vector<OneSidedBar> bars;
   for (std::size_t i = 0; i < scene.bars.size(); ++i)
@@ -303,10 +276,6 @@ std::vector<OneSidedBar> OneSidedBars(const Scene& scene) {
                     BarSense::kTension, &tendon});
   }
   return bars;
-}
-
-std::string SolidName(const Solid& solid, std::size_t place) {
-  return solid.name.empty() ? "solid" + std::to_string(place + 1) : solid.name;
 }
 
 int BeamSegments(const Beam& beam) { return beam.segments > 0 ? beam.segments : kSegments; }
@@ -324,8 +293,7 @@ std::vector<bool> NodesThatTurn(const Scene& scene) {
   std::vector<bool> turn;
   for (const Node& node : scene.nodes) turn.push_back(IsBody(node));
   if (scene.beams.empty()) return turn;
-  std::unordered_map<std::string_view, std::size_t> places;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) places.emplace(scene.nodes[i].name, i);
+  const auto places = PlacesByName(scene.nodes);
   for (const Beam& beam : scene.beams)
     for (std::size_t i = 0; i < beam.nodes.size(); ++i)
       if (const auto node = places.find(beam.nodes[i]); node != places.end() && TurnsNode(beam, i))
@@ -336,8 +304,7 @@ std::vector<bool> NodesThatTurn(const Scene& scene) {
 std::vector<bool> PinsInLoops(const Scene& scene) {
   std::vector<bool> in_loops(scene.pins.size(), false);
   if (scene.pins.empty()) return in_loops;
-  std::unordered_map<std::string_view, std::size_t> places;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) places.emplace(scene.nodes[i].name, i);
+  const auto places = PlacesByName(scene.nodes);
   const std::size_t held = scene.nodes.size();  // what supports and contacts hold
   const auto owner = [&](const std::string& name) {
     const auto node = places.find(name);
@@ -416,8 +383,8 @@ Expansion Expand(const TraceRequest& request) {
   expansion.request = request;
   Scene& scene = expansion.request.scene;
   ExpandParts(&scene);
-  FixNodes(&scene);
   const Groups groups(scene);
+  FixNodes(groups, &scene);
   PinnedTwins twins(scene);
   expansion.contacts = ExpandContacts(groups, &twins, &scene);
   ExpandLoading(groups, &twins, &scene, &expansion);

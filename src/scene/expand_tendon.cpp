@@ -1,4 +1,4 @@
-#include "scene/expand_tendon.h"
+#include "scene/expansion_steps.h"
 
 #include <algorithm>
 #include <cmath>

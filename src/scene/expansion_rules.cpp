@@ -1,6 +1,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -83,15 +84,11 @@ class BeamRules {
 };
 
 void CheckBodies(Checker* checker) {
-  const Scene& scene = checker->GetScene();
-  const KeyPath list = kScene.Key("bodies");
-  std::unordered_set<std::string> earlier;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const RigidBody& body = scene.bodies[i];
-    checker->CheckFields(list[i], body, &earlier);
+  const std::vector<RigidBody>& bodies = checker->GetScene().bodies;
+  checker->CheckList(kScene.Key("bodies"), bodies, [&](const KeyPath& path, const RigidBody& body, bool) {
     if (checker->KnownNode(body.name) != nullptr)
-      checker->Add(list[i].Key("name"), body.name, "must not be the name of a node, too");
-  }
+      checker->Add(path.Key("name"), body.name, "must not be the name of a node, too");
+  });
 }
 
 class GroupRules {
@@ -127,9 +124,23 @@ class GroupRules {
   }
 
  private:
+  template <typename Value>
+  using Named = std::initializer_list<std::pair<const char*, Value>>;  // fields
+
+  // there: "is a group".
+  void CheckLeftOut(const KeyPath& path, Named<const std::string*> fields, const std::string& there) {
+    for (const auto& [name, value] : fields)
+      if (!value->empty()) checker_.Add(path.Key(name), *value, "must be left out where there " + there);
+  }
+  // what: "a surface: px and py act on it".
+  void CheckZero(const KeyPath& path, Named<double> fields, const std::string& what) {
+    for (const auto& [name, value] : fields)
+      if (value != 0.0) checker_.Add(path.Key(name), NumberText(value), "must be 0 where there is " + what);
+  }
+
   void CheckGroup(const KeyPath& path, const std::string& node, const std::string& group) {
     if (group.empty()) return;
-    if (!node.empty()) checker_.Add(path.Key("node"), node, "must be left out where there is a group");
+    CheckLeftOut(path, {{"node", &node}}, "is a group");
     if (groups_.count(group) > 0 || beams_.count(group) > 0) return;
     NearestName nearest(group);
     for (const Group& known : scene_.groups) nearest.Offer(known.name);
@@ -139,14 +150,16 @@ class GroupRules {
 
   void CheckRolling(const KeyPath& path, const ContactCandidate& contact) {
     const KeyPath key = path.Key("obstacles");
-    for (const auto& [name, value] : {std::pair("node", contact.node), std::pair("obstacle", contact.obstacle),
-                                      std::pair("group", contact.group), std::pair("surface", contact.surface)})
-      if (!value.empty()) checker_.Add(path.Key(name), value, "must be left out where there are obstacles");
+    CheckLeftOut(path,
+                 {{"node", &contact.node},
+                  {"obstacle", &contact.obstacle},
+                  {"group", &contact.group},
+                  {"surface", &contact.surface}},
+                 "are obstacles");
     if (contact.obstacles.size() != 2)
       return checker_.Add(key, ListText(contact.obstacles), "must name two obstacles: a circle, and what it may touch");
-    const Obstacle *const circle = checker_.KnownObstacle(contact.obstacles[0]), *const partner =
-                                                                                     checker_.KnownObstacle(
-                                                                                         contact.obstacles[1]);
+    const Obstacle* const circle = checker_.KnownObstacle(contact.obstacles[0]);
+    const Obstacle* const partner = checker_.KnownObstacle(contact.obstacles[1]);
     for (std::size_t i = 0; i < 2; ++i)
       if (checker_.KnownObstacle(contact.obstacles[i]) == nullptr)
         return checker_.Add(key[i], contact.obstacles[i],
@@ -166,67 +179,49 @@ class GroupRules {
   template <typename Part>
   void CheckBody(const KeyPath& path, const Part& part) {
     if (part.body.empty()) return;
-    for (const auto& [name, value] : {std::pair("node", part.node), std::pair("group", part.group)})
-      if (!value.empty()) checker_.Add(path.Key(name), value, "must be left out where there is a body");
-    const Node* const node = checker_.KnownNode(part.body);
-    if (node == nullptr || !IsBody(*node)) checker_.Add(path.Key("body"), part.body, "must name a body of the scene");
+    CheckLeftOut(path, {{"node", &part.node}, {"group", &part.group}}, "is a body");
+    checker_.CheckBody(path, part.body);
   }
 
   void CheckSurfaces() {
-    const KeyPath list = kScene.Key("surfaces");
-    std::unordered_set<std::string> earlier;
-    for (std::size_t i = 0; i < scene_.surfaces.size(); ++i) {
-      const BoundarySurface& surface = scene_.surfaces[i];
-      const KeyPath path = list[i], nodes = path.Key("nodes");
-      checker_.CheckFields(path, surface, &earlier);
+    checker_.CheckList(kScene.Key("surfaces"), scene_.surfaces, [&](const auto& path, const auto& surface, bool) {
+      const KeyPath nodes = path.Key("nodes");
       const std::size_t least = surface.closed ? 3 : 2;
       if (surface.nodes.size() < least)
         checker_.Add(nodes, ListText(surface.nodes), "at least " + std::to_string(least) + " nodes are needed");
       checker_.CheckNoRepeats(nodes, surface.nodes);
-      surfaces_.insert(surface.name);
-    }
+    });
   }
 
   // What a traction on a surface leaves out.
   void CheckSurfaceLoad(const KeyPath& path, const Load& load) {
-    if (!load.node.empty()) checker_.Add(path.Key("node"), load.node, "must be left out where there is a surface");
-    if (!load.group.empty()) checker_.Add(path.Key("group"), load.group, "must be left out where there is a surface");
-    for (const auto& [name, value] :
-         {std::pair("fx", load.fx), std::pair("fy", load.fy), std::pair("moment", load.moment)})
-      if (value != 0.0)
-        checker_.Add(path.Key(name), NumberText(value), "must be 0 where there is a surface: px and py act on it");
+    CheckLeftOut(path, {{"node", &load.node}, {"group", &load.group}}, "is a surface");
+    CheckZero(path, {{"fx", load.fx}, {"fy", load.fy}, {"moment", load.moment}}, "a surface: px and py act on it");
     CheckSurfaceName(path, load.surface);
   }
 
   // What the weight of a solid or a beam leaves out.
   void CheckWeight(const KeyPath& path, const Load& load) {
     const bool of_solid = !load.solid.empty();
-    const char* const part = of_solid ? "solid" : "beam";
-    for (const auto& [name, value] :
-         {std::pair("node", load.node), std::pair("group", load.group), std::pair("surface", load.surface),
-          std::pair("body", load.body), std::pair("beam", of_solid ? load.beam : std::string())})
-      if (!value.empty()) checker_.Add(path.Key(name), value, std::string("must be left out where there is a ") + part);
-    for (const auto& [name, value] :
-         {std::pair("fx", load.fx), std::pair("fy", load.fy), std::pair("moment", load.moment),
-          std::pair("px", load.px), std::pair("py", load.py)})
-      if (value != 0.0)
-        checker_.Add(path.Key(name), NumberText(value),
-                     std::string("must be 0 where there is a ") + part + ": bx and by act on it");
-    NearestName nearest(of_solid ? load.solid : load.beam);
+    const std::string part = of_solid ? "solid" : "beam", &wanted = of_solid ? load.solid : load.beam;
+    CheckLeftOut(path, {{"node", &load.node}, {"group", &load.group}, {"surface", &load.surface}, {"body", &load.body}},
+                 "is a " + part);
+    if (of_solid) CheckLeftOut(path, {{"beam", &load.beam}}, "is a " + part);
+    CheckZero(path, {{"fx", load.fx}, {"fy", load.fy}, {"moment", load.moment}, {"px", load.px}, {"py", load.py}},
+              "a " + part + ": bx and by act on it");
+    NearestName nearest(wanted);
     bool known = false;
     const auto offer = [&](const std::string& name) {
       nearest.Offer(name);
-      known = known || name == (of_solid ? load.solid : load.beam);
+      known = known || name == wanted;
     };
     for (std::size_t i = 0; of_solid && i < scene_.solids.size(); ++i) offer(SolidName(scene_.solids[i], i));
     for (std::size_t i = 0; !of_solid && i < scene_.beams.size(); ++i) offer(BeamName(scene_.beams[i], i));
-    if (!known)
-      checker_.Add(path.Key(part), of_solid ? load.solid : load.beam,
-                   std::string("must name a ") + part + " of the scene" + nearest.Question());
+    if (!known) checker_.Add(path.Key(part), wanted, "must name a " + part + " of the scene" + nearest.Question());
   }
 
   void CheckSurfaceName(const KeyPath& path, const std::string& surface) {
-    if (surfaces_.count(surface) > 0) return;
+    if (checker_.KnownSurface(surface) != nullptr) return;
     const NearestName nearest = NearestOf(surface, scene_.surfaces, &BoundarySurface::name);
     checker_.Add(path.Key("surface"), surface, "must name a surface of the scene" + nearest.Question());
   }
@@ -291,7 +286,7 @@ class GroupRules {
 
   Checker& checker_;
   const Scene& scene_;
-  std::unordered_set<std::string> groups_, beams_, surfaces_;
+  std::unordered_set<std::string> groups_, beams_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "scene/idle_rotation.h"
+#include "scene/expansion_steps.h"
 
 #include <algorithm>
 #include <string>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
@@ -33,9 +34,10 @@ double SumOfLoads(const Stage& stage, const Scene& scene, const SceneIndex& inde
   return std::abs(stage.Target()) * std::accumulate(sizes.begin(), sizes.end(), 0.0);
 }
 
-// The load factors of the stages before `stage` that are on there: their targets, less what stages that unload have
-// taken back.
-std::vector<double> SharesBefore(const std::vector<Stage>& program, std::size_t stage) {
+// Calls visit(stage before, share) for each stage before `stage`, from the first one. share: the load factor of that
+// stage that is on, its target less what stages that unload have taken back.
+template <typename Visit>
+void ForEachStageBefore(const std::vector<Stage>& program, std::size_t stage, Visit&& visit) {
   std::vector<double> shares(stage, 0.0);
   double left = 1.0;
   for (std::size_t i = stage; i-- > 0;) {
@@ -44,7 +46,7 @@ std::vector<double> SharesBefore(const std::vector<Stage>& program, std::size_t 
     else
       shares[i] = left * program[i].Target();
   }
-  return shares;
+  for (std::size_t i = 0; i < stage; ++i) visit(program[i], shares[i]);
 }
 
 // The numbers of a load, a motion or a change of friction.
@@ -110,66 +112,63 @@ std::vector<double> SlipOrigins(const TraceRequest& request, const SceneIndex& i
     if (!contact.OnSurface()) of_obstacle.emplace(index.Obstacle(contact.obstacle), origins.size());
     origins.insert(origins.end(), {node.x, node.y});
   }
-  if (request.program.empty()) return origins;
-  const std::vector<double> shares = SharesBefore(request.program, stage);
-  for (std::size_t i = 0; i < stage; ++i)
-    for (const ObstacleMotion& motion : request.program[i].obstacle_motions) {
+  ForEachStageBefore(request.program, stage, [&](const Stage& before, double share) {
+    for (const ObstacleMotion& motion : before.obstacle_motions) {
       const auto [begin, end] = of_obstacle.equal_range(index.Obstacle(motion.obstacle));
-      for (auto at = begin; at != end; ++at) Move(shares[i], motion, &origins[at->second], &origins[at->second + 1]);
+      for (auto at = begin; at != end; ++at) Move(share, motion, &origins[at->second], &origins[at->second + 1]);
     }
+  });
   return origins;
 }
 
 // Loads, obstacle motions and changes of friction of all stages before `stage`.
 void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIndex& index, Scene* scene) {
-  const std::vector<double> shares = SharesBefore(program, stage);
-  for (std::size_t i = 0; i < stage; ++i) {
-    const double share = shares[i];
-    if (share == 0.0) continue;
-    for (const Load& load : program[i].loads) scene->loads.push_back(Times(share, load, /*constant=*/true));
-    for (const ObstacleMotion& motion : program[i].obstacle_motions)
+  ForEachStageBefore(program, stage, [&](const Stage& before, double share) {
+    if (share == 0.0) return;
+    for (const Load& load : before.loads) scene->loads.push_back(Times(share, load, /*constant=*/true));
+    for (const ObstacleMotion& motion : before.obstacle_motions)
       Move(share, motion, &scene->obstacles[index.Obstacle(motion.obstacle)]);
-    for (const FrictionChange& change : program[i].friction_changes)
+    for (const FrictionChange& change : before.friction_changes)
       Change(share * change.rate, &scene->obstacles[index.Obstacle(change.obstacle)], &scene->contacts);
-  }
+  });
 }
 
-// Adds factor * motion to the motion of the same support or obstacle, or to the change of its friction. places: of what
-// is in `sums`, by name.
+// The motions of supports or obstacles, or the changes of friction, that the stages before `stage` have left, with the
+// opposite sign: one for each name.
 template <typename Motion>
-void AddMotion(std::string_view name, const Motion& motion, double factor,
-               std::unordered_map<std::string_view, std::size_t>* places, std::vector<Motion>* sums) {
-  const auto [at, is_new] = places->emplace(name, sums->size());
-  if (is_new) {
-    sums->push_back(motion);
-    for (double* const number : NumbersOf(&sums->back())) *number = 0.0;
-  }
-  Motion part = Times(factor, motion);
-  const auto sum = NumbersOf(&(*sums)[at->second]), more = NumbersOf(&part);
-  for (std::size_t i = 0; i < sum.size(); ++i) *sum[i] += *more[i];
-}
-
-void SetMotions(const Stage& stage, Scene* scene) {
-  scene->support_motions = stage.support_motions;
-  scene->obstacle_motions = stage.obstacle_motions;
-  scene->friction_changes = stage.friction_changes;
+std::vector<Motion> TakenBack(const std::vector<Stage>& program, std::size_t stage, std::vector<Motion> Stage::*list,
+                              std::string Motion::*name) {
+  std::vector<Motion> sums;
+  std::unordered_map<std::string_view, std::size_t> places;
+  ForEachStageBefore(program, stage, [&](const Stage& before, double share) {
+    if (share == 0.0) return;
+    for (const Motion& motion : before.*list) {
+      const auto [at, is_new] = places.emplace(motion.*name, sums.size());
+      if (is_new) sums.push_back(Times(0.0, motion));
+      Motion part = Times(-share, motion);
+      const auto sum = NumbersOf(&sums[at->second]), more = NumbersOf(&part);
+      for (std::size_t i = 0; i < sum.size(); ++i) *sum[i] += *more[i];
+    }
+  });
+  return sums;
 }
 
 // With the loads, motions and changes of friction of a stage.
 void SetLoading(const Stage& stage, Scene* scene) {
   scene->loads = stage.loads;
-  SetMotions(stage, scene);
+  scene->support_motions = stage.support_motions;
+  scene->obstacle_motions = stage.obstacle_motions;
+  scene->friction_changes = stage.friction_changes;
 }
 
 // The scene with the loads and motions of one stage at its target, and what is constant.
-Scene LoadedAtTarget(const Stage& stage, Scene scene) {
+Scene LoadedAtTarget(Stage stage, Scene scene) {
   const double target = stage.Target();
-  const std::vector<Load> constant = scene.loads;
+  for (Load& load : stage.loads) load = Times(target, load);
+  for (SupportMotion& motion : stage.support_motions) motion = Times(target, motion);
+  for (ObstacleMotion& motion : stage.obstacle_motions) motion = Times(target, motion);
+  stage.loads.insert(stage.loads.end(), scene.loads.begin(), scene.loads.end());
   SetLoading(stage, &scene);
-  for (Load& load : scene.loads) load = Times(target, load);
-  for (SupportMotion& motion : scene.support_motions) motion = Times(target, motion);
-  for (ObstacleMotion& motion : scene.obstacle_motions) motion = Times(target, motion);
-  scene.loads.insert(scene.loads.end(), constant.begin(), constant.end());
   return scene;
 }
 
@@ -180,19 +179,13 @@ std::size_t NumStages(const TraceRequest& request) { return std::max<std::size_t
 Stage StageAsTraced(const TraceRequest& request, std::size_t stage) {
   Stage traced = request.program[stage];
   if (!traced.unload) return traced;
-  const std::vector<double> shares = SharesBefore(request.program, stage);
-  std::unordered_map<std::string_view, std::size_t> supports, obstacles, changed;
-  for (std::size_t i = 0; i < stage; ++i) {
-    if (shares[i] == 0.0) continue;
-    const Stage& before = request.program[i];
-    for (const Load& load : before.loads) traced.loads.push_back(Times(-shares[i], load, /*constant=*/false));
-    for (const SupportMotion& motion : before.support_motions)
-      AddMotion(motion.node, motion, -shares[i], &supports, &traced.support_motions);
-    for (const ObstacleMotion& motion : before.obstacle_motions)
-      AddMotion(motion.obstacle, motion, -shares[i], &obstacles, &traced.obstacle_motions);
-    for (const FrictionChange& change : before.friction_changes)
-      AddMotion(change.obstacle, change, -shares[i], &changed, &traced.friction_changes);
-  }
+  ForEachStageBefore(request.program, stage, [&](const Stage& before, double share) {
+    if (share == 0.0) return;
+    for (const Load& load : before.loads) traced.loads.push_back(Times(-share, load, /*constant=*/false));
+  });
+  traced.support_motions = TakenBack(request.program, stage, &Stage::support_motions, &SupportMotion::node);
+  traced.obstacle_motions = TakenBack(request.program, stage, &Stage::obstacle_motions, &ObstacleMotion::obstacle);
+  traced.friction_changes = TakenBack(request.program, stage, &Stage::friction_changes, &FrictionChange::obstacle);
   return traced;
 }
 
@@ -200,9 +193,9 @@ Scene StageScene(const TraceRequest& request, const SceneIndex& index, std::size
   Scene scene = request.scene;
   if (request.program.empty()) return scene;
   BringOn(request.program, stage, index, &scene);
-  const Stage now = StageAsTraced(request, stage);
-  scene.loads.insert(scene.loads.end(), now.loads.begin(), now.loads.end());
-  SetMotions(now, &scene);
+  Stage now = StageAsTraced(request, stage);
+  now.loads.insert(now.loads.begin(), scene.loads.begin(), scene.loads.end());
+  SetLoading(now, &scene);
   return scene;
 }
 
@@ -217,16 +210,14 @@ Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& 
   Configuration configuration = Configuration::Of(request.scene);
   if (request.options.friction_law == FrictionLaw::kTotal)
     configuration.slip_origins = SlipOrigins(request, index, stage);
-  if (request.program.empty()) return configuration;
-  const std::vector<double> shares = SharesBefore(request.program, stage);
-  for (std::size_t i = 0; i < stage; ++i) {
-    for (const SupportMotion& motion : request.program[i].support_motions) {
+  ForEachStageBefore(request.program, stage, [&](const Stage& before, double share) {
+    for (const SupportMotion& motion : before.support_motions) {
       const std::size_t node = index.Node(motion.node);
-      configuration.start[2 * node] += shares[i] * motion.dx;
-      configuration.start[2 * node + 1] += shares[i] * motion.dy;
-      configuration.start_rotations[node] += shares[i] * motion.rotation;
+      configuration.start[2 * node] += share * motion.dx;
+      configuration.start[2 * node + 1] += share * motion.dy;
+      configuration.start_rotations[node] += share * motion.rotation;
     }
-  }
+  });
   return configuration;
 }
 
@@ -239,13 +230,10 @@ ObstaclePlace PlaceOf(const TraceRequest& request, const Obstacle& obstacle, std
       place.turn += share * motion.turn;
     }
   };
-  if (request.program.empty()) {
-    move(request.scene.obstacle_motions, load_factor);
-    return place;
-  }
-  const std::vector<double> shares = SharesBefore(request.program, stage);
-  for (std::size_t i = 0; i < stage; ++i) move(request.program[i].obstacle_motions, shares[i]);
-  move(StageAsTraced(request, stage).obstacle_motions, load_factor);
+  ForEachStageBefore(request.program, stage,
+                     [&](const Stage& before, double share) { move(before.obstacle_motions, share); });
+  move(request.program.empty() ? request.scene.obstacle_motions : StageAsTraced(request, stage).obstacle_motions,
+       load_factor);
   return place;
 }
 

@@ -130,25 +130,23 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
 }
 
 NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
-  if (Quantity{quantity.kind}.IsReaction() || quantity.kind == Quantity::Kind::kWidth) {
-    NearestName nearest(quantity.name);
+  const Quantity of{quantity.kind};
+  NearestName nearest(quantity.name);
+  const auto offer = [&](const auto& parts) {
+    for (const auto& part : parts) nearest.Offer(part.name);
+  };
+  if (of.IsReaction() || of.kind == Quantity::Kind::kWidth) {
     for (const SupportedNode& support : SupportedNodes(scene))
-      if (Quantity{quantity.kind}.IsReaction() && Holds(support, quantity.kind))
-        nearest.Offer(scene.nodes[support.node].name);
-    for (const TouchedBoundary& boundary : TouchedBoundaries(scene)) nearest.Offer(boundary.name);
+      if (of.IsReaction() && Holds(support, of.kind)) nearest.Offer(scene.nodes[support.node].name);
+    offer(TouchedBoundaries(scene));
     for (std::size_t i = 0; i < scene.pins.size(); ++i) nearest.Offer(PinName(scene.pins[i], i));
-    return nearest;
   }
-  if (Quantity{quantity.kind}.IsOfSection() || Quantity{quantity.kind}.IsOfElement()) return NearestName(quantity.name);
-  if (Quantity{quantity.kind}.IsOfNode() || quantity.kind == Quantity::Kind::kTurn) {
-    NearestName nearest(quantity.name);
-    if (quantity.kind != Quantity::Kind::kTurn)
-      for (const Node& node : scene.nodes) nearest.Offer(node.name);
-    if (quantity.kind != Quantity::Kind::kRotation)
-      for (const Obstacle& obstacle : scene.obstacles) nearest.Offer(obstacle.name);
-    return nearest;
-  }
-  return NearestOf(quantity.name, scene.contacts, &ContactCandidate::Name);
+  if (of.IsOfNode()) offer(scene.nodes);
+  if (of.kind == Quantity::Kind::kX || of.kind == Quantity::Kind::kY || of.kind == Quantity::Kind::kTurn)
+    offer(scene.obstacles);
+  if (of.IsOfContact())
+    for (const ContactCandidate& contact : scene.contacts) nearest.Offer(contact.Name());
+  return nearest;
 }
 
 NearestName NearestQuantity(std::string_view text, const Scene& scene) {
@@ -178,14 +176,15 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
 }
 
 std::string PartOf(Quantity::Kind kind) {
-  if (Quantity{kind}.IsReaction())
+  const Quantity of{kind};
+  if (of.IsReaction())
     return "a component that a support holds, an obstacle or surface with contact candidates, or a pin";
   if (kind == Quantity::Kind::kWidth) return "an obstacle or surface with contact candidates";
-  if (Quantity{kind}.IsOfSection()) return "a segment of a beam, as leg.1, or of N a bar, as bar1";
-  if (Quantity{kind}.IsOfElement()) return "an element of a solid, as block.1";
+  if (of.IsOfSection()) return "a segment of a beam, as leg.1, or of N a bar, as bar1";
+  if (of.IsOfElement()) return "an element of a solid, as block.1";
   if (kind == Quantity::Kind::kRotation) return "a node of the scene";
   if (kind == Quantity::Kind::kTurn) return "an obstacle of the scene";
-  return Quantity{kind}.IsOfNode() ? "a node or an obstacle of the scene" : "a contact of the scene";
+  return of.IsOfNode() ? "a node or an obstacle of the scene" : "a contact of the scene";
 }
 
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column) {

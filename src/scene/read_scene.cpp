@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstddef>
 #include <fstream>
 #include <limits>
@@ -47,10 +46,10 @@ class Reader {
       ReadPart(value, path, out);
     } else if constexpr (kIsList<T>) {
       ReadList(value, path, out);
-    } else if (const auto parsed = Scalar<T>::Parse(value)) {
+    } else if (const auto parsed = ParseScalar<T>(value)) {
       *out = *parsed;
     } else {
-      Add(0, path, value, Scalar<T>::Rule(value));
+      Add(0, path, value, ScalarRule<T>(value));
       if constexpr (std::is_same_v<T, double>) *out = std::numeric_limits<double>::quiet_NaN();  // no rule compares it
       if constexpr (std::is_same_v<T, std::string>) *out = value.text;  // other parts may refer to it
       const bool stands_in = std::is_same_v<T, double> || std::is_same_v<T, std::string>;
@@ -142,8 +141,7 @@ int LineOf(const YamlValue& root, std::string_view path) {
     path.remove_prefix(part.size());
     const YamlValue* next = nullptr;
     if (part[0] == '[' && at->kind == YamlValue::Kind::kList) {
-      std::size_t index = 0;
-      std::from_chars(part.data() + 1, part.data() + part.size(), index);
+      const std::size_t index = ParseWhole(part.substr(1, part.size() - 2)).value_or(0);
       if (index < at->items.size()) next = &at->items[index];
       if (next != nullptr) line = next->line;
     } else if (at->kind == YamlValue::Kind::kMap) {

@@ -1,10 +1,8 @@
 #include "contact_path/scene/request_field.h"
 
-#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -29,14 +27,6 @@ std::string Shown(const KeyPath& key) {
   constexpr std::string_view kScene = "scene";
   if (text == kScene) return "the scene";
   return text.compare(0, kScene.size() + 1, "scene.") == 0 ? text.substr(kScene.size() + 1) : text;
-}
-
-// The place that `word` tells, or nothing.
-std::optional<std::size_t> ParsePlace(std::string_view word) {
-  std::size_t place = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), place);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return place;
 }
 
 // Follows a path into a request and calls visit(key, value) with the value at its end.
@@ -116,7 +106,7 @@ class Walk {
         nearest.Offer(list[i].name);
       }
     }
-    const std::optional<std::size_t> place = ParsePlace(word);
+    const std::optional<std::size_t> place = ParseWhole(word);
     if (place && *place < list.size()) return *place;
     if (list.empty()) Reject("must not name an element of " + Shown(key) + ", which has none");
     Reject("must name an element of " + Shown(key) + (HasName<T>::value ? ", by its name or" : ", by") +
@@ -155,8 +145,8 @@ void SetField(std::string_view path, const std::string& value, TraceRequest* req
       YamlValue written;
       written.kind = YamlValue::Kind::kText;
       written.text = value;
-      const std::optional<Value> parsed = Scalar<Value>::Parse(written);
-      if (!parsed) Reject(Scalar<Value>::Rule(written));
+      const std::optional<Value> parsed = ParseScalar<Value>(written);
+      if (!parsed) Reject(ScalarRule<Value>(written));
       *field = *parsed;
     }
   };

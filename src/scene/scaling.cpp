@@ -82,23 +82,19 @@ Scaling ScalesOfSolids(const Scene& scene, const SceneIndex& index) {
 // solids. There must be one. The force deforms it by something like its length: EA of a bar, EI / length^2 of a beam.
 Scaling ScalesOfElements(const Scene& scene, const SceneIndex& index) {
   std::vector<double> lengths, logarithms;
-  for (const Bar& bar : scene.bars) {
-    lengths.push_back(LengthOf(bar.nodes, scene, index));
-    logarithms.push_back(std::log(bar.EA));
-  }
-  for (const Tendon& tendon : scene.tendons) {
-    lengths.push_back(LengthOf(tendon.nodes, scene, index));
-    logarithms.push_back(std::log(tendon.EA));
-  }
+  const auto add = [&](double length, double force) {
+    lengths.push_back(length);
+    logarithms.push_back(std::log(force));
+  };
+  for (const Bar& bar : scene.bars) add(LengthOf(bar.nodes, scene, index), bar.EA);
+  for (const Tendon& tendon : scene.tendons) add(LengthOf(tendon.nodes, scene, index), tendon.EA);
   for (const Beam& beam : scene.beams) {
     const double length = LengthOf(beam.nodes, scene, index);
-    lengths.push_back(length);
-    logarithms.push_back(std::log(beam.EI / (length * length)));
+    add(length, beam.EI / (length * length));
   }
   if (!scene.solids.empty()) {
     const Scaling body = ScalesOfSolids(scene, index);
-    lengths.push_back(body.length);
-    logarithms.push_back(std::log(body.force));
+    add(body.length, body.force);
   }
   const auto count = static_cast<double>(lengths.size());
   Scaling scaling;
@@ -193,23 +189,6 @@ double MeanSpring(const Scene& scene) {
   return logarithms.empty() ? 0.0 : std::exp(OrderedSum(std::move(logarithms)) / count);
 }
 
-}  // namespace
-
-double ExtentOfNodes(const Scene& scene) {
-  std::vector<double> x, y;
-  for (const Node& node : scene.nodes) {
-    x.push_back(node.x);
-    y.push_back(node.y);
-  }
-  const auto count = static_cast<double>(scene.nodes.size());
-  const double middle_x = OrderedSum(std::move(x)) / count, middle_y = OrderedSum(std::move(y)) / count;
-  double largest = 0.0;
-  for (const Node& node : scene.nodes) largest = std::max(largest, std::hypot(node.x - middle_x, node.y - middle_y));
-  return 2.0 * largest;
-}
-
-namespace {
-
 // How far loads move a node of a scene of linear parts that no contact holds [length]: the farthest one, by the
 // constant loads, or by those that the load factor scales, of the norm force_norm. Infinite where contacts alone hold
 // something.
@@ -283,10 +262,6 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
   return nearest;
 }
 
-}  // namespace
-
-namespace {
-
 // Of a boundary that is not straight on without end [length].
 double ExtentOf(const Obstacle& obstacle) {
   double largest = 2.0 * obstacle.radius;
@@ -307,6 +282,19 @@ double ArmOf(const Scene& scene) {
 }
 
 }  // namespace
+
+double ExtentOfNodes(const Scene& scene) {
+  std::vector<double> x, y;
+  for (const Node& node : scene.nodes) {
+    x.push_back(node.x);
+    y.push_back(node.y);
+  }
+  const auto count = static_cast<double>(scene.nodes.size());
+  const double middle_x = OrderedSum(std::move(x)) / count, middle_y = OrderedSum(std::move(y)) / count;
+  double largest = 0.0;
+  for (const Node& node : scene.nodes) largest = std::max(largest, std::hypot(node.x - middle_x, node.y - middle_y));
+  return 2.0 * largest;
+}
 
 bool HasForceScale(const Scene& scene) {
   return !scene.bars.empty() || !scene.beams.empty() || !scene.solids.empty() || !scene.tendons.empty();

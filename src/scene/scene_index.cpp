@@ -1,10 +1,10 @@
 #include "contact_path/scene/scene_index.h"
 
 #include <algorithm>
-#include <charconv>
 #include <unordered_set>
 
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 namespace {
@@ -12,18 +12,7 @@ namespace {
 constexpr std::string_view kBar = "bar";
 
 // A number from 1, written without zeros in front; 0 for another text.
-std::size_t NumberIn(std::string_view text) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc() && end == text.data() + text.size() && text.front() != '0';
-  return whole ? number : 0;
-}
-
-bool IsFitForColumn(std::string_view name) {
-  return !name.empty() && std::none_of(name.begin(), name.end(), [](char c) {
-    return c == '@' || c == ',' || c == '"' || c == '.' || c == '/' || static_cast<unsigned char>(c) <= ' ' || c == 127;
-  });
-}
+std::size_t NumberIn(std::string_view text) { return text.front() == '0' ? 0 : ParseWhole(text).value_or(0); }
 
 }  // namespace
 
@@ -45,7 +34,7 @@ ElementNames::ElementNames(const Scene& scene) : num_bars_(scene.bars.size()), n
     const Solid& solid = scene.solids[i];
     const bool own = IsFitForColumn(solid.name) && names.insert(solid.name).second;
     const std::size_t elements = solid.nodes.size() / std::max<std::size_t>(solid.NodesPerElement(), 1);
-    solids_.push_back({own ? solid.name : "solid" + std::to_string(i + 1), num_elements_, elements});
+    solids_.push_back({own ? solid.name : SolidName({}, i), num_elements_, elements});
     num_elements_ += elements;
   }
 }
@@ -121,16 +110,15 @@ std::vector<std::size_t> BoundaryOfContacts(const Scene& scene, const std::vecto
   return touched;
 }
 
-SceneIndex::SceneIndex(const Scene& scene) : elements_(scene) {
-  nodes_.reserve(scene.nodes.size());
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes_.emplace(scene.nodes[i].name, i);
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) materials_.emplace(scene.materials[i].name, i);
-  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) surfaces_.emplace(scene.surfaces[i].name, i);
-  obstacles_.reserve(scene.obstacles.size());
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) obstacles_.emplace(scene.obstacles[i].name, i);
+SceneIndex::SceneIndex(const Scene& scene)
+    : nodes_(PlacesByName(scene.nodes)),
+      materials_(PlacesByName(scene.materials)),
+      surfaces_(PlacesByName(scene.surfaces)),
+      obstacles_(PlacesByName(scene.obstacles)),
+      supported_(SupportedNodes(scene)),
+      elements_(scene) {
   contacts_.reserve(scene.contacts.size());
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) contacts_.emplace(scene.contacts[i].Name(), i);
-  supported_ = SupportedNodes(scene);
   for (std::size_t i = 0; i < supported_.size(); ++i) supports_.emplace(scene.nodes[supported_[i].node].name, i);
   for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
     boundaries_.emplace(boundary.name, boundaries_.size());

@@ -109,14 +109,11 @@ void CheckElements(const KeyPath& key, const Solid& solid, Checker* checker) {
 }  // namespace
 
 void CheckMaterials(Checker* checker) {
-  const KeyPath list = kScene.Key("materials");
-  std::unordered_set<std::string> earlier;
-  for (std::size_t i = 0; i < checker->GetScene().materials.size(); ++i) {
-    const Material& material = checker->GetScene().materials[i];
-    const KeyPath path = list[i];
-    if (checker->CheckFields(path, material, &earlier) && CheckConstants(path, material, checker))
-      CheckShare(path, material, checker);
-  }
+  const std::vector<Material>& materials = checker->GetScene().materials;
+  checker->CheckList(kScene.Key("materials"), materials,
+                     [&](const KeyPath& path, const Material& material, bool sound) {
+                       if (sound && CheckConstants(path, material, checker)) CheckShare(path, material, checker);
+                     });
 }
 
 void CheckSolid(const KeyPath& path, const Solid& solid, bool sound, Checker* checker) {

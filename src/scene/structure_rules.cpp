@@ -16,12 +16,7 @@ std::string ElementKinds() {
   ForEachElementList(Scene(), [&](std::string_view list, const auto&) {
     kinds.push_back(list.substr(0, list.size() - 1));  // one of them
   });
-  std::string text;
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    if (i > 0) text += i + 1 < kinds.size() ? ", " : " or ";
-    text += kinds[i];
-  }
-  return text;
+  return Either(kinds);
 }
 
 class StructureRules {
@@ -51,13 +46,10 @@ class StructureRules {
   void CheckElements() {
     bool any = false;
     ForEachElementList(scene_, [&](std::string_view, const auto& elements) { any = any || !elements.empty(); });
-    any = any || std::any_of(scene_.nodes.begin(), scene_.nodes.end(), IsBody);
-    bool is_first = true;
+    if (!any && !scene_.nodes.empty() && std::none_of(scene_.nodes.begin(), scene_.nodes.end(), IsBody))
+      checker_.Add(kScene.Key("bars"), "[]", "at least one " + ElementKinds() + " is needed");
     ForEachElementList(scene_, [&](std::string_view name, const auto& elements) {
       const KeyPath list = kScene.Key(name);
-      if (!any && is_first && !scene_.nodes.empty())
-        checker_.Add(list, "[]", "at least one " + ElementKinds() + " is needed");
-      is_first = false;
       for (std::size_t i = 0; i < elements.size(); ++i) CheckElement(list[i], elements[i]);
     });
     std::unordered_set<std::string> earlier;   // names of bars, as columns have them
@@ -98,9 +90,8 @@ class StructureRules {
  private:
   void CheckBodyOf(const KeyPath& path, const Node& node) {
     if (node.body.empty()) return;
-    const Node* const body = checker_.KnownNode(node.body);
-    if (body == nullptr || body == &node || !IsBody(*body))
-      checker_.Add(path.Key("body"), node.body, "must name a body of the scene");
+    if (node.body == node.name) checker_.Add(path.Key("body"), node.body, "must name a body of the scene");
+    checker_.CheckBody(path, node.body);
     for (const auto& [name, fixed] : {std::pair("fixed_x", node.fixed_x), std::pair("fixed_y", node.fixed_y),
                                       std::pair("fixed_rotation", node.fixed_rotation)})
       if (fixed) checker_.Add(path.Key(name), "true", "must be false: the node moves with body " + node.body);
@@ -148,8 +139,8 @@ class StructureRules {
     if (nodes.size() < 2) return checker_.Add(key, ListText(nodes), "must name two nodes at least");
     std::set<std::pair<std::string, int>> unknowns;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Node *const node = checker_.KnownNode(nodes[i]), *const next =
-                                                                 checker_.KnownNode(nodes[(i + 1) % nodes.size()]);
+      const Node* const node = checker_.KnownNode(nodes[i]);
+      const Node* const next = checker_.KnownNode(nodes[(i + 1) % nodes.size()]);
       if (node == nullptr || next == nullptr) return;
       if (i + 1 < nodes.size() && std::hypot(next->x - node->x, next->y - node->y) < kSmallestInput)
         checker_.Add(key[i + 1], nodes[i + 1], "must not be at the same point as the node before");
@@ -172,10 +163,8 @@ class StructureRules {
     }
     const std::size_t count = tendon.nodes.size();
     for (std::size_t i = 0; i < tendon.radii.size(); ++i) {
-      const Node *const node = checker_.KnownNode(tendon.nodes[i]), *const next =
-                                                                        i + 1 < count
-                                                                            ? checker_.KnownNode(tendon.nodes[i + 1])
-                                                                            : nullptr;
+      const Node* const node = checker_.KnownNode(tendon.nodes[i]);
+      const Node* const next = i + 1 < count ? checker_.KnownNode(tendon.nodes[i + 1]) : nullptr;
       if (node != nullptr && next != nullptr && !SpanIsSound(tendon, i, {next->x - node->x, next->y - node->y}))
         return checker_.Add(path.Key("radii")[i + 1], NumberText(tendon.radii[i + 1]),
                             "must leave room for the string between the roller and the one before");

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <system_error>
 
 namespace contact_path {
 namespace {
@@ -98,6 +100,26 @@ std::string RoundedText(double value, int digits) {
   std::ostringstream out = ClassicStream(digits);
   out << value;
   return out.str();
+}
+
+std::string Either(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
+  return text;
+}
+
+std::optional<std::size_t> ParseWhole(std::string_view text) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+bool IsFitForColumn(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return code > 0x20 && code != 0x7F && std::string_view("@,\"./").find(c) == std::string_view::npos;
+  });
 }
 
 std::size_t Utf8Size(std::string_view text) {

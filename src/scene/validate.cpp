@@ -13,65 +13,65 @@
 namespace contact_path {
 namespace {
 
+template <typename Part, typename Is>
+bool Any(const std::vector<Part>& parts, Is&& is) {
+  return std::any_of(parts.begin(), parts.end(), is);
+}
+
+// Options that do not go with others, or with the scene.
+void CheckConflicts(const KeyPath& path, const TraceOptions& options, const Scene& scene, Checker* checker) {
+  const bool mpec = !options.LocatesEvents(), total = options.friction_law == FrictionLaw::kTotal;
+  struct Conflict {
+    bool holds;
+    const char* field;
+    std::string_view value, rule;
+  };
+  for (const auto& [holds, field, value, rule] :
+       {Conflict{mpec && options.at_limit != AtLimit::kFollow, "at_limit", ToString(options.at_limit),
+                 "must be follow with method mpec, which does not locate limit points"},
+        Conflict{mpec && options.branch_rule == BranchRule::kForward, "branch_rule", "forward",
+                 "must be dissipation with method mpec, which has the paper's rule"},
+        Conflict{mpec && !options.at.empty(), "at", "", "must be empty with method mpec, which does not locate values"},
+        Conflict{mpec && total, "friction_law", "total", "must be incremental with method mpec"},
+        Conflict{total && Any(scene.tendons, [](const Tendon& tendon) { return tendon.IsPiece(); }), "friction_law",
+                 "total", "must be incremental where a tendon has friction"},
+        Conflict{total && Any(scene.obstacles, [](const Obstacle& obstacle) { return !obstacle.body.empty(); }),
+                 "friction_law", "total", "must be incremental where a body carries an obstacle"},
+        Conflict{total && Any(scene.contacts, [](const auto& of) { return of.OnSurface() && of.friction > 0.0; }),
+                 "friction_law", "total", "must be incremental where a contact with a surface has friction"},
+        Conflict{mpec && !options.branch_choices.empty(), "branch_choices", "",
+                 "must be empty with method mpec, which does not find the branches of an event"}})
+    if (holds) checker->Add(path.Key(field), std::string(value), std::string(rule));
+}
+
 void CheckOptions(Checker* checker) {
   const TraceOptions& options = checker->Request().options;
-  const KeyPath path("options"), stops = path.Key("stop"), choices = path.Key("branch_choices");
+  const KeyPath path("options");
   if (checker->CheckFields(path, options) && options.direction != 0.0 && !checker->Request().program.empty())
     checker->Add(path.Key("direction"), NumberText(options.direction),
                  "must be 0 where there is a program: each stage goes towards its target");
-  for (std::size_t i = 0; i < options.stop.size(); ++i) {
-    const StopCriterion& stop = options.stop[i];
-    checker->CheckFields(stops[i], stop);
+  checker->CheckList(path.Key("stop"), options.stop, [&](const KeyPath& key, const StopCriterion& stop, bool) {
     if (stop.when != ">" && stop.when != "<")
-      checker->Add(stops[i].Key("when"), TextOrQuotes(stop.when), "must be \">\" or \"<\"");
-  }
-  const KeyPath at = path.Key("at");  // a variable: a path refers to the one that it extends
-  for (std::size_t i = 0; i < options.at.size(); ++i) {
-    const Samples& samples = options.at[i];
-    const KeyPath key = at[i];
-    checker->CheckFields(key, samples);
+      checker->Add(key.Key("when"), TextOrQuotes(stop.when), "must be \">\" or \"<\"");
+  });
+  checker->CheckList(path.Key("at"), options.at, [&](const KeyPath& key, const Samples& samples, bool) {
     if (samples.values.empty() == (samples.count == 0))
       checker->Add(key, samples.quantity, "must have values, or else from, to and count");
     const std::size_t count = std::max(samples.values.size(), static_cast<std::size_t>(std::max(samples.count, 0)));
     if (count > options.MaxIncrements(checker->Request().program.size()))
       checker->Add(key.Key(samples.values.empty() ? "count" : "values"), std::to_string(count),
                    "must be at most max_increments, since each value wants an increment");
-  }
+  });
   for (std::size_t i = 0; i < options.record.size(); ++i)
     if (const std::string& list = options.record[i];
         list != "sections" && list != "stresses" && list != "pressures" && list != "inner")
       checker->Add(path.Key("record")[i], TextOrQuotes(list), "must be sections, stresses, pressures or inner");
-  if (!options.LocatesEvents() && options.at_limit != AtLimit::kFollow)
-    checker->Add(path.Key("at_limit"), std::string(ToString(options.at_limit)),
-                 "must be follow with method mpec, which does not locate limit points");
-  if (!options.LocatesEvents() && options.branch_rule == BranchRule::kForward)
-    checker->Add(path.Key("branch_rule"), "forward",
-                 "must be dissipation with method mpec, which has the paper's rule");
-  if (!options.LocatesEvents() && !options.at.empty())
-    checker->Add(path.Key("at"), "", "must be empty with method mpec, which does not locate values");
-  if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)
-    checker->Add(path.Key("friction_law"), "total", "must be incremental with method mpec");
-  const std::vector<Tendon>& tendons = checker->GetScene().tendons;
-  if (options.friction_law == FrictionLaw::kTotal &&
-      std::any_of(tendons.begin(), tendons.end(), [](const Tendon& tendon) { return tendon.IsPiece(); }))
-    checker->Add(path.Key("friction_law"), "total", "must be incremental where a tendon has friction");
-  if (const std::vector<Obstacle>& obstacles = checker->GetScene().obstacles;
-      options.friction_law == FrictionLaw::kTotal &&
-      std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) { return !obstacle.body.empty(); }))
-    checker->Add(path.Key("friction_law"), "total", "must be incremental where a body carries an obstacle");
-  const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
-  if (options.friction_law == FrictionLaw::kTotal &&
-      std::any_of(contacts.begin(), contacts.end(),
-                  [](const auto& contact) { return contact.OnSurface() && contact.friction > 0.0; }))
-    checker->Add(path.Key("friction_law"), "total", "must be incremental where a contact with a surface has friction");
-  if (!options.LocatesEvents() && !options.branch_choices.empty())
-    checker->Add(choices, "", "must be empty with method mpec, which does not find the branches of an event");
-  for (std::size_t i = 0; i < options.branch_choices.size(); ++i) {
-    const BranchChoice& choice = options.branch_choices[i];
-    checker->CheckFields(choices[i], choice);
-    if (choice.event > 0 && choice.increment > 0)
-      checker->Add(choices[i].Key("increment"), std::to_string(choice.increment), "must be 0 where event is given");
-  }
+  CheckConflicts(path, options, checker->GetScene(), checker);
+  checker->CheckList(
+      path.Key("branch_choices"), options.branch_choices, [&](const KeyPath& key, const BranchChoice& choice, bool) {
+        if (choice.event > 0 && choice.increment > 0)
+          checker->Add(key.Key("increment"), std::to_string(choice.increment), "must be 0 where event is given");
+      });
 }
 
 std::vector<Violation> FoundBy(void (*check)(Checker*), const TraceRequest& request) {
@@ -87,21 +87,19 @@ std::vector<Violation> FoundBy(void (*check)(Checker*), const TraceRequest& requ
 // The rules of a request in which every node, load and contact is listed by itself, in its own order.
 std::vector<Violation> ValidateExpanded(Checker* checker_of_request) {
   Checker& checker = *checker_of_request;
-  LoadingRules loading(&checker);
-  ContactRules contacts(&checker);
   std::vector<Violation> all, of_program;
   try {
     checker.CheckUtf8(KeyPath("scene").Key("name"), checker.GetScene().name);
     CheckStructure(&checker);
-    loading.CheckSceneLoads();
+    const bool loads_are_sound = CheckSceneLoads(&checker);
     const bool structure_is_sound = checker.NothingFound();
-    contacts.CheckObstacles();
+    const UsableObstacles obstacles = CheckObstacles(&checker);
     all = checker.Take();
-    loading.CheckSceneMotions();
-    loading.CheckProgram();
+    CheckProgram(loads_are_sound, &checker);
     of_program = checker.Take();
     // Lengths are compared with the characteristic length, which the program may give.
-    contacts.CheckContacts(structure_is_sound && of_program.empty() ? ProgramScales(checker.Request()).length : 0.0);
+    CheckContacts(obstacles, structure_is_sound && of_program.empty() ? ProgramScales(checker.Request()).length : 0.0,
+                  &checker);
     CheckOptions(&checker);
   } catch (const Checker::Enough&) {
     // What was found so far tells.
@@ -190,7 +188,7 @@ std::vector<Violation> Validate(const TraceRequest& request) {
   }
   const std::size_t count = first.size();
   for (const Violation& violation : others)
-    if (!std::any_of(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(count),
+    if (std::none_of(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(count),
                      [&](const Violation& cause) { return Follows(violation, cause); }))
       first.push_back(violation);
   return first;

@@ -20,7 +20,8 @@ bool HasLeadingZero(const std::string& word) {
 
 }  // namespace
 
-std::optional<bool> ParseFlag(const YamlValue& value) {
+template <>
+std::optional<bool> ParseScalar(const YamlValue& value) {
   if (!IsPlain(value)) return std::nullopt;
   for (const char* yes : {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON", "1"}) {
     if (value.text == yes) return true;
@@ -31,7 +32,8 @@ std::optional<bool> ParseFlag(const YamlValue& value) {
   return std::nullopt;
 }
 
-std::optional<int> ParseInteger(const YamlValue& value) {
+template <>
+std::optional<int> ParseScalar(const YamlValue& value) {
   const std::string& word = value.text;
   if (!IsPlain(value) || HasLeadingZero(word)) return std::nullopt;
   const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
@@ -40,7 +42,8 @@ std::optional<int> ParseInteger(const YamlValue& value) {
   return error == std::errc() && end == word.data() + word.size() ? std::optional(integer) : std::nullopt;
 }
 
-std::optional<double> ParseNumber(const YamlValue& value) {
+template <>
+std::optional<double> ParseScalar(const YamlValue& value) {
   const std::string& word = value.text;
   if (!IsPlain(value) || HasLeadingZero(word)) return std::nullopt;
   for (const char* special : {".inf", ".Inf", ".INF"}) {
@@ -61,9 +64,10 @@ std::optional<double> ParseNumber(const YamlValue& value) {
   return stream.peek() == std::istringstream::traits_type::eof() ? std::optional(number) : std::nullopt;
 }
 
-std::optional<std::string> ParseText(const YamlValue& value) {
+template <>
+std::optional<std::string> ParseScalar(const YamlValue& value) {
   if (value.kind != YamlValue::Kind::kText) return std::nullopt;
-  if (ParseFlag(value) || ParseInteger(value) || ParseNumber(value)) return std::nullopt;
+  if (ParseScalar<bool>(value) || ParseScalar<int>(value) || ParseScalar<double>(value)) return std::nullopt;
   return value.text;
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <string_view>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -131,6 +131,11 @@ class YamlTreeBuilder : public YAML::EventHandler {
   std::size_t count_ = 0;
 };
 
+// The line, from 1, of a place in a text.
+inline int LineAt(const std::string& text, std::size_t place) {
+  return static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n')) + 1;
+}
+
 // The tree of `text`. `file` is used in messages only.
 // Throws InvalidRequest: larger than the bounds above, not YAML, empty, or more than one document.
 inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
@@ -142,16 +147,11 @@ inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
   const auto control = std::find_if(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';
   });
-  if (control != text.end()) {
-    const auto line = static_cast<int>(std::count(text.begin(), control, '\n')) + 1;
-    Refuse(file, line, "must be YAML, without control characters");
-  }
+  if (control != text.end())
+    Refuse(file, LineAt(text, static_cast<std::size_t>(control - text.begin())),
+           "must be YAML, without control characters");
   // Others, of UTF-16 or ISO 8859, would be replaced, and names become equal.
-  if (const std::size_t at = FindNoUtf8(text); at != std::string_view::npos) {
-    const auto line =
-        static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
-    Refuse(file, line, "must be UTF-8");
-  }
+  if (const std::size_t at = FindNoUtf8(text); at != text.npos) Refuse(file, LineAt(text, at), "must be UTF-8");
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -165,52 +165,35 @@ inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
   }
 }
 
-// Nothing for a value of another type.
-
+// A value without parts, as here a word of an enumeration. Nothing for a value of another type.
+template <typename T>
+std::optional<T> ParseScalar(const YamlValue& value) {
+  return value.kind == YamlValue::Kind::kText ? ParseWord<T>(value.text) : std::nullopt;
+}
 // The truth values of YAML 1.1, as ROS reads them too, and 0 and 1.
-std::optional<bool> ParseFlag(const YamlValue& value);
-std::optional<int> ParseInteger(const YamlValue& value);
+template <>
+std::optional<bool> ParseScalar(const YamlValue& value);
+template <>
+std::optional<int> ParseScalar(const YamlValue& value);
 // Decimal numbers with or without point and exponent, .inf and .nan. Those too large for a double are infinite.
-std::optional<double> ParseNumber(const YamlValue& value);
+template <>
+std::optional<double> ParseScalar(const YamlValue& value);
 // Plain words that YAML takes for numbers or truth values are no text; the service of ROS refuses them too.
-std::optional<std::string> ParseText(const YamlValue& value);
+template <>
+std::optional<std::string> ParseScalar(const YamlValue& value);
+
+// What to say where such a value cannot be read.
+template <typename T>
+std::string ScalarRule(const YamlValue& value) {
+  if constexpr (std::is_enum_v<T>) return WordRule<T>(value.text);
+  if constexpr (std::is_same_v<T, bool>) return "must be true or false";
+  if constexpr (std::is_same_v<T, int>) return "must be an integer";
+  if constexpr (std::is_same_v<T, double>) return "must be a number";
+  return "must be text (in quotes if it could be a number or a truth value)";
+}
 
 // What stands in the file, for a message.
 std::string Show(const YamlValue& value);
-
-// How a value without parts is read, and what to say where it cannot be.
-template <typename T>
-struct Scalar;
-template <>
-struct Scalar<bool> {
-  static std::optional<bool> Parse(const YamlValue& value) { return ParseFlag(value); }
-  static std::string Rule(const YamlValue&) { return "must be true or false"; }
-};
-template <>
-struct Scalar<int> {
-  static std::optional<int> Parse(const YamlValue& value) { return ParseInteger(value); }
-  static std::string Rule(const YamlValue&) { return "must be an integer"; }
-};
-template <>
-struct Scalar<double> {
-  static std::optional<double> Parse(const YamlValue& value) { return ParseNumber(value); }
-  static std::string Rule(const YamlValue&) { return "must be a number"; }
-};
-template <>
-struct Scalar<std::string> {
-  static std::optional<std::string> Parse(const YamlValue& value) { return ParseText(value); }
-  static std::string Rule(const YamlValue&) {
-    return "must be text (in quotes if it could be a number or a truth value)";
-  }
-};
-// A word of an enumeration.
-template <typename Enum>
-struct Scalar {
-  static std::optional<Enum> Parse(const YamlValue& value) {
-    return value.kind == YamlValue::Kind::kText ? ParseWord<Enum>(value.text) : std::nullopt;
-  }
-  static std::string Rule(const YamlValue& value) { return WordRule<Enum>(value.text); }
-};
 
 }  // namespace contact_path
 

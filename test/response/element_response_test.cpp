@@ -229,9 +229,10 @@ std::string NameOfLaw(const testing::TestParamInfo<Law>& of) {
 
 std::vector<Law> AllLaws() {
   std::vector<Law> laws;
-  for (const auto& [word, model] : Words<MaterialModel>::kAll)
+  ForEachWord<MaterialModel>([&](std::string_view, MaterialModel model) {
     for (const PlaneState plane : {PlaneState::kStrain, PlaneState::kStress})
       for (const std::size_t nodes : {3U, 4U, 6U, 8U}) laws.push_back({model, plane, nodes});
+  });
   return laws;
 }
 

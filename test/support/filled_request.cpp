@@ -26,8 +26,7 @@ void Fill(int* count, T* value) {
   } else if constexpr (std::is_same_v<T, bool>) {
     *value = !*value;
   } else if constexpr (std::is_enum_v<T>) {
-    for (const auto& [word, meaning] : Words<T>::kAll)
-      if (meaning != T()) *value = meaning;
+    ForEachWord<T>([&](std::string_view, T meaning) { *value = meaning; });
   } else {
     *value = static_cast<T>(*count);
   }

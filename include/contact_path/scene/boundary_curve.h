@@ -57,8 +57,11 @@ AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& sur
 std::array<int, 2> SymmetryAxes(const BoundarySurface& surface, const Scene& scene,
                                 const std::function<const Node&(const std::string&)>& node_of);
 
-// The elements of the solids that have edges of the surface, each as the names of the nodes round it. They must outlive
-// the result.
+// By element of a solid, the names of the nodes round it, counterclockwise. They must outlive the result. Nothing where
+// the elements have no shape that there is.
+std::vector<std::vector<std::string_view>> NodesRoundElements(const Solid& solid);
+
+// Those of the elements of the solids that have edges of the surface.
 std::vector<std::vector<std::string_view>> ElementsBehind(const BoundarySurface& surface, const Scene& scene);
 
 }  // namespace contact_path

@@ -29,24 +29,16 @@ inline double SizeOf(const Unit& unit, const UnitSizes& sizes) {
   return size;
 }
 
-// A constant load is no load per unit of the load factor.
-template <typename Part>
-UnitSizes SizesFor(const Part&, const UnitSizes& sizes) {
-  return sizes;
-}
-inline UnitSizes SizesFor(const Load& load, UnitSizes sizes) {
-  if (load.constant) sizes.load_factor = 1.0;
-  return sizes;
-}
-
 // Expresses all numbers of a part, and of the parts in it, in the new units. The value of a stop criterion, which has
 // the unit of its quantity, stays as it is.
 template <typename Part>
-void ChangeUnits(Part* part, const UnitSizes& sizes) {
+void ChangeUnits(Part* part, UnitSizes sizes) {
+  if constexpr (std::is_same_v<Part, Load>)
+    if (part->constant) sizes.load_factor = 1.0;  // a constant load is no load per unit of the load factor
   ForEachField<Part>([&](const auto& field) {
     using Value = typename std::decay_t<decltype(field)>::Value;
     [[maybe_unused]] Value& value = part->*field.member;
-    [[maybe_unused]] const double size = SizeOf(field.unit, SizesFor(*part, sizes));
+    [[maybe_unused]] const double size = SizeOf(field.unit, sizes);
     if constexpr (std::is_same_v<Value, double>) value /= size;
     if constexpr (std::is_same_v<Value, std::vector<double>>)
       for (double& entry : value) entry /= size;

@@ -11,13 +11,15 @@
 
 namespace contact_path {
 
-// The name of a beam, given or by its place in the list, from 0.
-std::string BeamName(const Beam& beam, std::size_t place);
-std::string BarName(const Bar& bar, std::size_t place);
-std::string SolidName(const Solid& solid, std::size_t place);
-
-std::string TendonName(const Tendon& tendon, std::size_t place);
-std::string PinName(const Pin& pin, std::size_t place);
+// The name of a part, or that by its kind and its place in the list, from 0.
+inline std::string NameOr(const std::string& name, const char* kind, std::size_t place) {
+  return name.empty() ? kind + std::to_string(place + 1) : name;
+}
+inline std::string BarName(const Bar& bar, std::size_t place) { return NameOr(bar.name, "bar", place); }
+inline std::string BeamName(const Beam& beam, std::size_t place) { return NameOr(beam.name, "beam", place); }
+inline std::string SolidName(const Solid& solid, std::size_t place) { return NameOr(solid.name, "solid", place); }
+inline std::string TendonName(const Tendon& of, std::size_t place) { return NameOr(of.name, "tendon", place); }
+inline std::string PinName(const Pin& pin, std::size_t place) { return NameOr(pin.name, "pin", place); }
 
 // What bears in one sense alone: a bar, or a tendon, whose length is that along its route (tendon_route.h).
 struct OneSidedBar {

@@ -6,12 +6,10 @@
 #ifndef CONTACT_PATH_SCENE_FIELD_H_
 #define CONTACT_PATH_SCENE_FIELD_H_
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace contact_path {
@@ -120,11 +118,6 @@ std::string FieldNames() {
 
 namespace field_internal {
 
-template <typename Tuple, typename OtherTuple, typename Visit, std::size_t... i>
-constexpr void ForEachPair(const Tuple& fields, const OtherTuple& others, Visit& visit, std::index_sequence<i...>) {
-  (visit(std::get<i>(fields), std::get<i>(others)), ...);
-}
-
 template <typename T, typename = void>
 struct IsDescribed : std::false_type {};
 template <typename T>
@@ -135,9 +128,10 @@ struct IsDescribed<T, std::void_t<decltype(Fields<T>(Of<T>()))>> : std::true_typ
 // Calls visit(field of Part, field of Other) for each field of Part. Other has the same members.
 template <typename Part, typename Other, typename Visit>
 constexpr void ForEachFieldPair(Visit&& visit) {
-  constexpr auto fields = Fields<Part>(Of<Part>());
-  field_internal::ForEachPair(fields, Fields<Other>(Of<Part>()), visit,
-                              std::make_index_sequence<std::tuple_size_v<decltype(fields)>>());
+  const auto with_others = [&](const auto&... field) {
+    std::apply([&](const auto&... other) { (visit(field, other), ...); }, Fields<Other>(Of<Part>()));
+  };
+  std::apply(with_others, Fields<Part>(Of<Part>()));
 }
 
 // Whether T is a part: a struct with a description.

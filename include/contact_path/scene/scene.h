@@ -12,9 +12,7 @@
 #define CONTACT_PATH_SCENE_SCENE_H_
 
 #include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "contact_path/scene/field.h"
@@ -32,15 +30,7 @@ enum class ObstacleShape {
   kPolyline,  // with rounded corners
   kSpline,    // the cubic through its points with continuous curvature (geometry/point_curves.h)
 };
-
-template <>
-struct Words<ObstacleShape> {
-  static constexpr ObstacleShape kDefault = ObstacleShape::kHalfPlane;
-  static constexpr std::pair<std::string_view, ObstacleShape> kAll[] = {{"half_plane", ObstacleShape::kHalfPlane},
-                                                                        {"circle", ObstacleShape::kCircle},
-                                                                        {"polyline", ObstacleShape::kPolyline},
-                                                                        {"spline", ObstacleShape::kSpline}};
-};
+constexpr auto WordsOf(ObstacleShape) { return WordList("half_plane", "circle", "polyline", "spline"); }
 
 struct Node {
   std::string name;
@@ -158,13 +148,7 @@ enum class Overlap {
   kRefuse,
   kBringOn,  // taken back from 1 to 0 while constant loads are brought on: a fit
 };
-
-template <>
-struct Words<Overlap> {
-  static constexpr Overlap kDefault = Overlap::kRefuse;
-  static constexpr std::pair<std::string_view, Overlap> kAll[] = {{"refuse", Overlap::kRefuse},
-                                                                  {"bring_on", Overlap::kBringOn}};
-};
+constexpr auto WordsOf(Overlap) { return WordList("refuse", "bring_on"); }
 
 // A node that may touch an obstacle or a surface, or each node of a group; or a circle that a body carries, which rolls
 // or slides on another obstacle. The name of a candidate is "<node>@<obstacle>", "<node>@<surface>" or

@@ -14,6 +14,16 @@
 
 namespace contact_path {
 
+// The places of parts in their list, from 0, by name; of several with one name, that of the first. The parts must
+// outlive the result.
+template <typename Part>
+std::unordered_map<std::string_view, std::size_t> PlacesByName(const std::vector<Part>& parts) {
+  std::unordered_map<std::string_view, std::size_t> places;
+  places.reserve(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) places.emplace(parts[i].name, i);
+  return places;
+}
+
 // Sections are numbered through all bars, then all segments of beams; elements through all solids; both from 0. A
 // section is called "bar<place of the bar, from 1>" or "<beam>.<segment, from 1>", an element "<solid>.<element, from
 // 1>". A solid without a name, or with one that is not fit for a column or is that of a solid before it, is called

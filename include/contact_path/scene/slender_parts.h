@@ -5,9 +5,7 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "contact_path/scene/field.h"
@@ -21,25 +19,11 @@ enum class StrainMeasure {
   kGreenLagrange,  // ((l / l0)^2 - 1) / 2
   kLogarithmic,    // ln(l / l0)
 };
-
-template <>
-struct Words<StrainMeasure> {
-  static constexpr StrainMeasure kDefault = StrainMeasure::kBiot;
-  static constexpr std::pair<std::string_view, StrainMeasure> kAll[] = {
-      {"biot", StrainMeasure::kBiot},
-      {"green_lagrange", StrainMeasure::kGreenLagrange},
-      {"logarithmic", StrainMeasure::kLogarithmic}};
-};
+constexpr auto WordsOf(StrainMeasure) { return WordList("biot", "green_lagrange", "logarithmic"); }
 
 // What a bar bears.
 enum class BarSense { kBoth, kTension, kCompression };
-
-template <>
-struct Words<BarSense> {
-  static constexpr BarSense kDefault = BarSense::kBoth;
-  static constexpr std::pair<std::string_view, BarSense> kAll[] = {
-      {"both", BarSense::kBoth}, {"tension", BarSense::kTension}, {"compression", BarSense::kCompression}};
-};
+constexpr auto WordsOf(BarSense) { return WordList("both", "tension", "compression"); }
 
 // Straight bar with energy EA l0 e^2 / 2, e by `strain`; without energy where it is slack.
 struct Bar {
@@ -61,12 +45,7 @@ constexpr auto Fields(Of<Bar>) {
 
 // Whether friction acts at the round rollers of a tendon, or they turn with it.
 enum class Pulley { kFixed, kFree };
-
-template <>
-struct Words<Pulley> {
-  static constexpr Pulley kDefault = Pulley::kFixed;
-  static constexpr std::pair<std::string_view, Pulley> kAll[] = {{"fixed", Pulley::kFixed}, {"free", Pulley::kFree}};
-};
+constexpr auto WordsOf(Pulley) { return WordList("fixed", "free"); }
 
 // String from its first node through the others, along which it slides, to the last one. It bears tension alone.
 // Without friction: energy EA l0 e^2 / 2, e = l / l0 - 1 >= 0 with the length l from node to node and round the rollers

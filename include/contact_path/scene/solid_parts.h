@@ -4,13 +4,10 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "contact_path/scene/field.h"
-#include "contact_path/scene/scene.h"
 #include "contact_path/scene/words.h"
 
 namespace contact_path {
@@ -22,29 +19,16 @@ enum class MaterialModel {
   kCiarletGeymonat,
   kLinear,  // small displacements
 };
-
-template <>
-struct Words<MaterialModel> {
-  static constexpr MaterialModel kDefault = MaterialModel::kNeoHookean;
-  static constexpr std::pair<std::string_view, MaterialModel> kAll[] = {
-      {"neo_hookean", MaterialModel::kNeoHookean},
-      {"st_venant_kirchhoff", MaterialModel::kStVenantKirchhoff},
-      {"ciarlet_geymonat", MaterialModel::kCiarletGeymonat},
-      {"linear", MaterialModel::kLinear}};
-};
+constexpr auto WordsOf(MaterialModel) {
+  return WordList("neo_hookean", "st_venant_kirchhoff", "ciarlet_geymonat", "linear");
+}
 
 // What a plane solid does across the plane.
 enum class PlaneState {
   kStrain,  // it keeps its thickness
   kStress,  // no stress acts there
 };
-
-template <>
-struct Words<PlaneState> {
-  static constexpr PlaneState kDefault = PlaneState::kStrain;
-  static constexpr std::pair<std::string_view, PlaneState> kAll[] = {{"strain", PlaneState::kStrain},
-                                                                     {"stress", PlaneState::kStress}};
-};
+constexpr auto WordsOf(PlaneState) { return WordList("strain", "stress"); }
 
 // Elastic material of solids, by E and nu or by lambda and mu (LameOf()).
 struct Material {

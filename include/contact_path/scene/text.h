@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -23,6 +24,16 @@ std::ostringstream ClassicStream(int digits = 6);
 
 // `value` in so many digits, as in 1.2e-12: for a person. The same whatever the locale.
 std::string RoundedText(double value, int digits = 2);
+
+// "a, b or c".
+std::string Either(const std::vector<std::string_view>& words);
+
+// A whole number from 0, in digits alone; nothing for another text.
+std::optional<std::size_t> ParseWhole(std::string_view text);
+
+// Whether a name can be that of a column of a table, and part of "<node>@<obstacle>" and "<node>.x": there is neither
+// white space in it, nor a control character, nor any of @ , " . /.
+bool IsFitForColumn(std::string_view name);
 
 // UTF-8 is that of RFC 3629, which all names and scene files are in.
 

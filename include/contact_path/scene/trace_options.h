@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "contact_path/scene/field.h"
@@ -19,34 +18,18 @@ enum class Method {
   kBranch,  // piecewise smooth continuation with located events
   kMpec,    // Algorithm 3.2 of Kanno & Martins 2005
 };
-
-template <>
-struct Words<Method> {
-  static constexpr Method kDefault = Method::kBranch;
-  static constexpr std::pair<std::string_view, Method> kAll[] = {{"branch", Method::kBranch}, {"mpec", Method::kMpec}};
-};
+constexpr auto WordsOf(Method) { return WordList("branch", "mpec"); }
 
 enum class Accuracy { kFast, kBalanced, kAccurate };
-
-template <>
-struct Words<Accuracy> {
-  static constexpr Accuracy kDefault = Accuracy::kBalanced;
-  static constexpr std::pair<std::string_view, Accuracy> kAll[] = {
-      {"fast", Accuracy::kFast}, {"balanced", Accuracy::kBalanced}, {"accurate", Accuracy::kAccurate}};
-};
+constexpr auto WordsOf(Accuracy) { return WordList("fast", "balanced", "accurate"); }
+constexpr Accuracy DefaultOf(Accuracy) { return Accuracy::kBalanced; }
 
 // From where on a contact that slides is said to have moved.
 enum class FrictionLaw {
   kIncremental,  // Coulomb's law: the motion since the last increment
   kTotal,        // holonomic friction (deformation theory): the motion since the start of the program
 };
-
-template <>
-struct Words<FrictionLaw> {
-  static constexpr FrictionLaw kDefault = FrictionLaw::kIncremental;
-  static constexpr std::pair<std::string_view, FrictionLaw> kAll[] = {{"incremental", FrictionLaw::kIncremental},
-                                                                      {"total", FrictionLaw::kTotal}};
-};
+constexpr auto WordsOf(FrictionLaw) { return WordList("incremental", "total"); }
 
 // What a path does where the machine that loads the structure can go no further on a stable path.
 enum class AtLimit {
@@ -54,13 +37,7 @@ enum class AtLimit {
   kStop,    // ends
   kJump,    // moves, over-damped, to the next stable equilibrium, and goes on from there
 };
-
-template <>
-struct Words<AtLimit> {
-  static constexpr AtLimit kDefault = AtLimit::kFollow;
-  static constexpr std::pair<std::string_view, AtLimit> kAll[] = {
-      {"follow", AtLimit::kFollow}, {"stop", AtLimit::kStop}, {"jump", AtLimit::kJump}};
-};
+constexpr auto WordsOf(AtLimit) { return WordList("follow", "stop", "jump"); }
 
 // Which branch a path takes at an event.
 enum class BranchRule {
@@ -68,27 +45,14 @@ enum class BranchRule {
   kForward,      // where the path parameter goes on: one on which it goes on, else one on which it rests
   kDissipation,  // the one that dissipates most
 };
-
-template <>
-struct Words<BranchRule> {
-  static constexpr BranchRule kDefault = BranchRule::kAutomatic;
-  static constexpr std::pair<std::string_view, BranchRule> kAll[] = {{"automatic", BranchRule::kAutomatic},
-                                                                     {"forward", BranchRule::kForward},
-                                                                     {"dissipation", BranchRule::kDissipation}};
-};
+constexpr auto WordsOf(BranchRule) { return WordList("automatic", "forward", "dissipation"); }
 
 // A flag that is true where it is left out. Words in files and messages, since a message has no such flag.
 enum class DefaultTrue {
   kTrue,
   kFalse,
 };
-
-template <>
-struct Words<DefaultTrue> {
-  static constexpr DefaultTrue kDefault = DefaultTrue::kTrue;
-  static constexpr std::pair<std::string_view, DefaultTrue> kAll[] = {{"true", DefaultTrue::kTrue},
-                                                                      {"false", DefaultTrue::kFalse}};
-};
+constexpr auto WordsOf(DefaultTrue) { return WordList("true", "false"); }
 
 // Holds when `quantity` comes to `value` from the side that `when` does not name, or lies beyond.
 struct StopCriterion {

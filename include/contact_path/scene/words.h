@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_SCENE_WORDS_H_
 #define CONTACT_PATH_SCENE_WORDS_H_
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -11,39 +12,49 @@
 
 namespace contact_path {
 
-// Words of an enumeration has kAll, pairs of a word and its value, and kDefault, the value of "". In scene.h.
+// An enumeration with words, as those of scene.h, has an overload of WordsOf, which gives them in the order of its
+// values. The first value is that of "", unless an overload of DefaultOf tells another one.
+template <typename... Word>
+constexpr std::array<std::string_view, sizeof...(Word)> WordList(Word... words) {
+  return {words...};
+}
 template <typename Enum>
-struct Words;
+constexpr Enum DefaultOf(Enum) {
+  return Enum();
+}
+
+// Calls visit(word, value) for each word of an enumeration.
+template <typename Enum, typename Visit>
+void ForEachWord(Visit&& visit) {
+  int value = 0;
+  for (const std::string_view word : WordsOf(Enum())) visit(word, static_cast<Enum>(value++));
+}
 
 // Nothing for a word that is not known.
 template <typename Enum>
 std::optional<Enum> ParseWord(std::string_view text) {
-  if (text.empty()) return Words<Enum>::kDefault;
-  for (const auto& [word, value] : Words<Enum>::kAll)
-    if (word == text) return value;
-  return std::nullopt;
+  if (text.empty()) return DefaultOf(Enum());
+  std::optional<Enum> parsed;
+  ForEachWord<Enum>([&](std::string_view word, Enum value) {
+    if (word == text) parsed = value;
+  });
+  return parsed;
 }
 
-template <typename Enum, typename = decltype(Words<Enum>::kDefault)>
+template <typename Enum, typename = decltype(WordsOf(Enum()))>
 std::string_view ToString(Enum value) {
-  for (const auto& [word, known] : Words<Enum>::kAll)
-    if (known == value) return word;
-  return "unknown";  // not an enumerator
+  const auto words = WordsOf(value);
+  const auto place = static_cast<std::size_t>(value);
+  return place < words.size() ? words[place] : "unknown";  // not an enumerator
 }
 
 // "must be fast, balanced or accurate", with the nearest word to what was written instead.
 template <typename Enum>
 std::string WordRule(std::string_view written) {
-  const auto& words = Words<Enum>::kAll;
-  std::string rule = "must be ";
+  const auto words = WordsOf(Enum());
   NearestName nearest(written);
-  for (std::size_t i = 0; i < std::size(words); ++i) {
-    const std::string_view word = words[i].first;
-    if (i > 0) rule += i + 1 < std::size(words) ? ", " : " or ";
-    rule += word;
-    nearest.Offer(word);
-  }
-  return rule + nearest.Question();
+  for (const std::string_view word : words) nearest.Offer(word);
+  return "must be " + Either({words.begin(), words.end()}) + nearest.Question();
 }
 
 }  // namespace contact_path

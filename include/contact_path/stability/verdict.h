@@ -2,9 +2,6 @@
 #ifndef CONTACT_PATH_STABILITY_VERDICT_H_
 #define CONTACT_PATH_STABILITY_VERDICT_H_
 
-#include <string_view>
-#include <utility>
-
 #include "contact_path/scene/words.h"
 
 namespace contact_path {
@@ -17,15 +14,7 @@ enum class Verdict {
   kUnstable,   // some disturbance grows, whatever all masses and dampings are
   kNotProved,  // neither was shown
 };
-
-template <>
-struct Words<Verdict> {
-  static constexpr Verdict kDefault = Verdict::kNotAsked;
-  static constexpr std::pair<std::string_view, Verdict> kAll[] = {{"stable", Verdict::kStable},
-                                                                  {"unstable", Verdict::kUnstable},
-                                                                  {"not_proved", Verdict::kNotProved},
-                                                                  {"", Verdict::kNotAsked}};
-};
+constexpr auto WordsOf(Verdict) { return WordList("", "stable", "unstable", "not_proved"); }
 
 }  // namespace contact_path
 

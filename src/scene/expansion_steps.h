@@ -1,6 +1,6 @@
-// A tendon with friction at its eyes, as it is traced.
-#ifndef CONTACT_PATH_SRC_SCENE_EXPAND_TENDON_H_
-#define CONTACT_PATH_SRC_SCENE_EXPAND_TENDON_H_
+// Steps of Expand() (scene/expand.h).
+#ifndef CONTACT_PATH_SRC_SCENE_EXPANSION_STEPS_H_
+#define CONTACT_PATH_SRC_SCENE_EXPANSION_STEPS_H_
 
 #include <cstddef>
 #include <string>
@@ -15,6 +15,11 @@ namespace contact_path {
 // the eye to the next piece, and a contact of that node with the eye. A tendon that is not sound stays as it is.
 void ExpandTendon(std::size_t place, const std::unordered_map<std::string, std::size_t>& nodes, Scene* scene);
 
+// Fixes the rotation of each body on which no moment can act: a smooth disc, of circles about its reference point
+// without friction alone, in a scene where no friction changes. Nothing would determine it. The bodies of the request
+// are nodes; contacts are expanded.
+void FixIdleRotations(TraceRequest* request);
+
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_SRC_SCENE_EXPAND_TENDON_H_
+#endif  // CONTACT_PATH_SRC_SCENE_EXPANSION_STEPS_H_
