@@ -101,10 +101,10 @@ class Checker {
   }
 
   // Checks the fields of each part of a list, and then calls check(path of the part, part, whether its fields are
-  // sound).
+  // sound). earlier: names that the parts must not have.
   template <typename Part, typename Check>
-  void CheckList(const KeyPath& list, const std::vector<Part>& parts, Check&& check) {
-    std::unordered_set<std::string> earlier;
+  void CheckList(const KeyPath& list, const std::vector<Part>& parts, Check&& check,
+                 std::unordered_set<std::string> earlier = {}) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const KeyPath path = list[i];
       const bool sound = CheckFields(path, parts[i], &earlier);

@@ -14,7 +14,6 @@
 
 #include "contact_path/geometry/plane.h"
 #include "contact_path/scene/boundary_curve.h"
-#include "contact_path/scene/cell.h"
 #include "contact_path/scene/surface.h"
 
 namespace contact_path {

@@ -96,19 +96,13 @@ class GroupRules {
   explicit GroupRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}
 
   void Check() {
-    const KeyPath list = kScene.Key("groups");
-    std::unordered_set<std::string> earlier;
-    for (const Beam& beam : scene_.beams) {
-      earlier.insert(beam.name);
-      beams_.insert(beam.name);
-    }
-    for (std::size_t i = 0; i < scene_.groups.size(); ++i) {
-      const Group& group = scene_.groups[i];
-      checker_.CheckFields(list[i], group, &earlier);
-      if (group.nodes.empty()) checker_.Add(list[i].Key("nodes"), "[]", "at least one node is needed");
-      checker_.CheckNoRepeats(list[i].Key("nodes"), group.nodes);
+    for (const Beam& beam : scene_.beams) beams_.insert(beam.name);
+    const auto check_group = [&](const KeyPath& path, const Group& group, bool) {
+      if (group.nodes.empty()) checker_.Add(path.Key("nodes"), "[]", "at least one node is needed");
+      checker_.CheckNoRepeats(path.Key("nodes"), group.nodes);
       groups_.insert(group.name);
-    }
+    };
+    checker_.CheckList(kScene.Key("groups"), scene_.groups, check_group, beams_);
     CheckSurfaces();
     CheckSupports();
     CheckLoading(kScene, scene_);
@@ -203,7 +197,8 @@ class GroupRules {
   // What the weight of a solid or a beam leaves out.
   void CheckWeight(const KeyPath& path, const Load& load) {
     const bool of_solid = !load.solid.empty();
-    const std::string part = of_solid ? "solid" : "beam", &wanted = of_solid ? load.solid : load.beam;
+    const std::string part = of_solid ? "solid" : "beam";
+    const std::string& wanted = of_solid ? load.solid : load.beam;
     CheckLeftOut(path, {{"node", &load.node}, {"group", &load.group}, {"surface", &load.surface}, {"body", &load.body}},
                  "is a " + part);
     if (of_solid) CheckLeftOut(path, {{"beam", &load.beam}}, "is a " + part);

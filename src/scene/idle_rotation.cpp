@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {
@@ -40,22 +40,20 @@ void FixIdleRotations(TraceRequest* request) {
       std::any_of(request->program.begin(), request->program.end(), changes))
     return;
   std::unordered_set<std::string> turned = TurnedNodes(*request);
-  std::unordered_map<std::string_view, const Obstacle*> obstacles;
-  std::unordered_map<std::string_view, const Node*> bodies;
-  for (const Node& node : scene.nodes)
-    if (IsBody(node)) bodies.emplace(node.name, &node);
+  const auto nodes = PlacesByName(scene.nodes), obstacles = PlacesByName(scene.obstacles);
   for (const Obstacle& obstacle : scene.obstacles) {
-    obstacles.emplace(obstacle.name, &obstacle);
-    const auto body = bodies.find(obstacle.body);
-    if (body == bodies.end()) continue;
-    const bool round =
-        obstacle.shape == ObstacleShape::kCircle && obstacle.px == body->second->x && obstacle.py == body->second->y;
+    const auto at = nodes.find(obstacle.body);
+    if (at == nodes.end()) continue;
+    const Node& body = scene.nodes[at->second];
+    const bool round = obstacle.shape == ObstacleShape::kCircle && obstacle.px == body.x && obstacle.py == body.y;
     if (!round) turned.insert(obstacle.body);
   }
   for (const ContactCandidate& contact : scene.contacts) {
     const auto touched = obstacles.find(contact.Rolls() ? contact.obstacles.back() : contact.obstacle);
-    if (touched == obstacles.end() || contact.FrictionWith(*touched->second) == 0.0) continue;
-    turned.insert(touched->second->body);
+    if (touched == obstacles.end()) continue;
+    const Obstacle& obstacle = scene.obstacles[touched->second];
+    if (contact.FrictionWith(obstacle) == 0.0) continue;
+    turned.insert(obstacle.body);
     turned.insert(contact.node);
     if (const Obstacle* const circle = RollingCircle(contact, scene)) turned.insert(circle->body);
   }

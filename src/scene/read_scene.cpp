@@ -183,44 +183,31 @@ bool HasParts() {
   return has_parts;
 }
 
-// Writes parts by their descriptions: one without parts of its own as a map on one line.
-class Writer {
- public:
-  explicit Writer(YAML::Emitter* out) : out_(*out) {}
-
-  template <typename T>
-  void Write(const T& value) {
-    if constexpr (kIsPart<T>) {
-      WritePart(value);
-    } else if constexpr (kIsList<T>) {
-      out_ << (kIsPartList<T> ? YAML::Block : YAML::Flow) << YAML::BeginSeq;
-      for (const auto& item : value) Write(item);
-      out_ << YAML::EndSeq;
-    } else if constexpr (std::is_enum_v<T>) {
-      out_ << std::string(ToString(value));
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      // Only a text that could be something else, e.g. "1" or "yes", needs the quotes.
-      out_ << YAML::DoubleQuoted << value << YAML::Auto;
-    } else {
-      out_ << value;
-    }
-  }
-
- private:
-  template <typename Part>
-  void WritePart(const Part& part) {
-    const Part by_default;
-    out_ << (HasParts<Part>() ? YAML::Block : YAML::Flow) << YAML::BeginMap;
-    ForEachField<Part>([&](const auto& field) {
-      if (IsDefault(part.*field.member, by_default.*field.member)) return;
-      out_ << YAML::Key << std::string(field.name) << YAML::Value;
-      Write(part.*field.member);
+// A part is written by its description: one without parts of its own as a map on one line.
+template <typename T>
+void Write(const T& value, YAML::Emitter* out) {
+  if constexpr (kIsPart<T>) {
+    const T by_default;
+    *out << (HasParts<T>() ? YAML::Block : YAML::Flow) << YAML::BeginMap;
+    ForEachField<T>([&](const auto& field) {
+      if (IsDefault(value.*field.member, by_default.*field.member)) return;
+      *out << YAML::Key << std::string(field.name) << YAML::Value;
+      Write(value.*field.member, out);
     });
-    out_ << YAML::EndMap;
+    *out << YAML::EndMap;
+  } else if constexpr (kIsList<T>) {
+    *out << (kIsPartList<T> ? YAML::Block : YAML::Flow) << YAML::BeginSeq;
+    for (const auto& item : value) Write(item, out);
+    *out << YAML::EndSeq;
+  } else if constexpr (std::is_enum_v<T>) {
+    *out << std::string(ToString(value));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    // Only a text that could be something else, e.g. "1" or "yes", needs the quotes.
+    *out << YAML::DoubleQuoted << value << YAML::Auto;
+  } else {
+    *out << value;
   }
-
-  YAML::Emitter& out_;
-};
+}
 
 }  // namespace
 
@@ -260,7 +247,7 @@ TraceRequest ReadTraceRequestFile(const std::string& path) {
 std::string WriteTraceRequest(const TraceRequest& request) {
   YAML::Emitter out;
   out.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
-  Writer(&out).Write(request);
+  Write(request, &out);
   out << YAML::Newline;
   return out.c_str();
 }
