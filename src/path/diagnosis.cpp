@@ -1,37 +1,25 @@
 #include "contact_path/path/diagnosis.h"
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "contact_path/path/branch_options.h"
 #include "contact_path/path/sentences.h"
-#include "contact_path/path/stop.h"
 #include "contact_path/scene/expand.h"
-#include "contact_path/scene/program.h"
 #include "contact_path/scene/solid_parts.h"
-#include "contact_path/scene/surface.h"
-#include "contact_path/scene/text.h"
 #include "contact_path/structure/scene_elements.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kListed = 3;    // in a message
-constexpr double kMostGiven = 1e-6;   // of the characteristic length, by bodies and pins: as the check has it
-constexpr double kDeep = 1e-3;        // of the characteristic length: what is not as deep in an obstacle is not told
-constexpr double kWeight = 0.1;       // share of other loads from which on constant ones are no disturbance
-constexpr double kExactLoads = 1e-6;  // error of loads, of them, that goes without a remark
+constexpr double kMostGiven = 1e-6;             // of the characteristic length, by bodies and pins: as the check has it
 constexpr double kNearlyIncompressible = 0.48;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {
@@ -137,18 +125,6 @@ Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::v
   return found;
 }
 
-// Behind a curve; 0 on its admissible side, and past an end of it.
-double DepthIn(const Surface& surface, const Eigen::Vector2d& x) {
-  const NearestFoot nearest = surface.Nearest(x);
-  return nearest.is_end || nearest.is_away ? 0.0 : std::max(0.0, -surface.Project(x, nearest.patch).gap);
-}
-
-std::string Joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
-}
-
 }  // namespace
 
 Causes CollapsedPart(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
@@ -190,29 +166,7 @@ Causes LockingSolids(const Scene& scene, const SceneIndex& index) {
     names.push_back(SolidName(scene, i));
   }
   if (names.empty()) return {};
-  return {{sentences::kLockingSolids, Joined(names)}};
-}
-
-Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
-  double most = 1.0 / tolerances::kRootOfRounding;  // beyond, rounding of the axial force hides the bending
-  Causes found;
-  for (const Beam& beam : scene.beams) {
-    const Node &first = scene.nodes[index.Node(beam.nodes.front())], &last = scene.nodes[index.Node(beam.nodes.back())];
-    const double length = std::hypot(last.x - first.x, last.y - first.y);
-    const double slender = beam.EA * length * length / beam.EI;
-    if (!(slender > most)) continue;
-    most = slender;
-    found = {{sentences::kSlenderBeam, beam.name, slender}};
-  }
-  return found;
-}
-
-Causes LightLoads(const Model& model) {
-  const double weight = model.structure.ConstantLoad().norm();
-  const double rounding = model.structure.NumDofs() > 0 ? model.structure.ForceRounding().maxCoeff() : 0.0;
-  if (IsDriven(model.scene) || !(weight * model.scaling.load_factor >= kWeight) || !(rounding > kExactLoads * weight))
-    return {};
-  return {{sentences::kLightLoads, {}, rounding / weight}};
+  return {{sentences::kLockingSolids, Listed(names)}};
 }
 
 Causes CurveTooSharp(const Model& model, const PathPoint& point) {
@@ -335,49 +289,6 @@ Causes BehindBoundary(const Model& model, const PathPoint& point) {
   return {};
 }
 
-Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint& point) {
-  if (start.obstacles.empty()) return {};
-  std::set<std::pair<std::string_view, std::string_view>> candidates;
-  std::set<std::string_view> slides;  // no places
-  for (const ContactCandidate& contact : model.scene.contacts) {
-    candidates.emplace(contact.node, contact.obstacle);
-    if (contact.at_eye) slides.insert(contact.node);
-  }
-  const CheckedState state = model.InSceneUnits(point);
-  const auto place_of = [&](std::size_t node) {
-    return Eigen::Vector2d(state.positions[2 * node], state.positions[2 * node + 1]);
-  };
-  const std::vector<Obstacle> now = ObstaclesAt(model.scene, model.index, point.s * model.scaling.load_factor);
-  const double least = kDeep * model.scaling.length;
-  // By depth in thousandths of the least one: equal depths stay in the order of the scene, whatever rounding makes of
-  // them.
-  std::vector<std::pair<long long, std::string>> inside;
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    const std::unique_ptr<const Surface> before = MakeSurface(start.obstacles[k]), after = MakeSurface(now[k]);
-    const std::optional<std::size_t> body =
-        now[k].body.empty() ? std::nullopt : std::optional(model.index.Node(now[k].body));
-    for (std::size_t i = 0; i < start.nodes.size(); ++i) {
-      const Node& node = start.nodes[i];
-      if (slides.count(node.name) > 0) continue;
-      Eigen::Vector2d place = place_of(i);
-      if (body)  // as the body sees it, where it was at the start
-        place = Eigen::Rotation2D(-state.rotations[*body]) * (place - place_of(*body)) +
-                Eigen::Vector2d(start.nodes[*body].x, start.nodes[*body].y);
-      const double depth = DepthIn(*after, place);
-      if (depth > least && DepthIn(*before, {node.x, node.y}) <= least &&
-          candidates.count({node.name, now[k].name}) == 0)
-        inside.emplace_back(std::llround(-1e3 * depth / least),
-                            node.name + " into " + now[k].name + " by " + RoundedText(depth));
-    }
-  }
-  if (inside.empty()) return {};
-  std::stable_sort(inside.begin(), inside.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::string> deepest;
-  for (std::size_t i = 0; i < std::min(inside.size(), kListed); ++i) deepest.push_back(inside[i].second);
-  if (inside.size() > kListed) deepest.push_back("and " + std::to_string(inside.size() - kListed) + " more");
-  return {{sentences::kInObstacles, Joined(deepest)}};
-}
-
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
   const double most = std::max(tolerances::kUnitComponent, tolerances::kSmallShare * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
@@ -403,28 +314,6 @@ Causes ContactTooSoft(const Model& model, const PathPoint& point, double least) 
       return {{sentences::kStiffnessSign, model.scene.contacts[i].Name(), unit * largest, unit * least}};
   }
   return {};
-}
-
-Causes MissedEnd(const TraceRequest& request, int stage) {
-  const auto stages = static_cast<long>(request.program.size());
-  if (stages > 0) return {{sentences::kMissedTarget, {}, stage, stages}};
-  std::vector<std::string> criteria;
-  for (const StopCriterion& criterion : request.options.stop) criteria.push_back(ToText(criterion));
-  if (criteria.empty()) return {{sentences::kNoCriterion}};
-  if (criteria.size() > kListed) {
-    criteria.resize(kListed);
-    criteria.emplace_back("...");
-  }
-  return {{sentences::kMissedCriteria, Joined(criteria)}};
-}
-
-Causes MissedChoices(const TraceRequest& request, int increments, int events) {
-  std::vector<std::string> missed;
-  for (const BranchChoice& choice : request.options.branch_choices)
-    if (choice.event > events || (choice.event == 0 && choice.increment >= increments))
-      missed.push_back(PlaceOf(choice));
-  if (missed.empty() || !request.options.LocatesEvents()) return {};
-  return {{sentences::kMissedChoices, Joined(missed)}};
 }
 
 }  // namespace contact_path

@@ -56,7 +56,9 @@ class Restorer {
     const std::optional<PathPoint> point = PointAfter(start, from, wanted.arc_length - before.arc_length);
     const double load = wanted.load_factor / model_.scaling.load_factor;
     if (!point || !(std::abs(point->s - load) <= tolerances::kSamePoint * (1.0 + std::abs(load)))) return false;
+    const double recorded = wanted.load_factor;
     FillState(model_, *point, &wanted);
+    wanted.load_factor = recorded;
     FillLists(model_, *point, lists_, &wanted);
     return true;
   }

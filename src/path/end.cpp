@@ -1,7 +1,8 @@
-#include <cstddef>
+#include "contact_path/path/end.h"
+
+#include <algorithm>
 #include <utility>
 
-#include "contact_path/path/end.h"
 #include "contact_path/scene/text.h"
 
 namespace contact_path {
@@ -31,23 +32,11 @@ std::string EndText(const Causes& causes) {
   return text;
 }
 
-std::string_view ToString(EndReason reason) {
-  switch (reason) {
-    case EndReason::kNumericalFailure: return "numerical_failure";
-    case EndReason::kStopCriterion: return "stop_criterion";
-    case EndReason::kMaxIncrements: return "max_increments";
-    case EndReason::kPathEnd: return "path_end";
-    case EndReason::kStepTooSmall: return "step_too_small";
-    case EndReason::kCancelled: return "cancelled";
-    case EndReason::kNoSuchBranch: return "no_such_branch";
-    case EndReason::kClosedPath: return "closed_path";
-    case EndReason::kMemoryLimit: return "memory_limit";
-    case EndReason::kElementInverted: return "element_inverted";
-    case EndReason::kNotDetermined: return "not_determined";
-    case EndReason::kAtLimit: return "at_limit";
-    case EndReason::kNoLanding: return "no_landing";
-  }
-  return "";
+std::string Listed(const std::vector<std::string>& parts, std::size_t most, std::string_view behind) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(parts.size(), most); ++i) text += (i == 0 ? "" : ", ") + parts[i];
+  if (parts.size() > most) text.append(behind).append("and " + std::to_string(parts.size() - most) + " more");
+  return text;
 }
 
 bool IsNumerical(EndReason reason) {

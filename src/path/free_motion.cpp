@@ -12,6 +12,7 @@
 
 #include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/minimum_norm.h"
+#include "contact_path/path/end.h"
 #include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/text.h"
 #include "contact_path/tolerances.h"
@@ -74,14 +75,6 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
 
 bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// The first names, and how many there are beside.
-std::string Listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  if (names.size() > kMostNames) text += " and " + std::to_string(names.size() - kMostNames) + " more";
-  return text;
 }
 
 // One word for one of them, another for several.
@@ -179,9 +172,10 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
 
 std::string TextOf(const Names& names) {
   if (names.nodes.empty()) return {};
-  std::string text = Counted(names.nodes, "node ", "nodes ") + Listed(names.nodes) +
+  std::string text = Counted(names.nodes, "node ", "nodes ") + Listed(names.nodes, kMostNames) +
                      Counted(names.nodes, " moves freely", " move freely");
-  if (!names.contacts.empty()) text += "; " + Listed(names.contacts) + Counted(names.contacts, " touches", " touch");
+  if (!names.contacts.empty())
+    text += "; " + Listed(names.contacts, kMostNames) + Counted(names.contacts, " touches", " touch");
   return text;
 }
 
@@ -226,30 +220,11 @@ std::string FreeMotionQuestion(const Model& model, const PathPoint& point, doubl
   if (const std::string open = NearestOpen(model, point, names.nodes); !open.empty())
     return TextOf(names) + "; " + open + ": " + question;
   if (!names.obstacles.empty())
-    question = Counted(names.obstacles, "does the normal of ", "do the normals of ") + Listed(names.obstacles) +
-               " point to the side where the " + Counted(names.contacts, "node", "nodes") + " may be? " + question;
-  if (!names.rough.empty()) question += " is the friction of " + Listed(names.rough) + " too small?";
+    question = Counted(names.obstacles, "does the normal of ", "do the normals of ") +
+               Listed(names.obstacles, kMostNames) + " point to the side where the " +
+               Counted(names.contacts, "node", "nodes") + " may be? " + question;
+  if (!names.rough.empty()) question += " is the friction of " + Listed(names.rough, kMostNames) + " too small?";
   return TextOf(names) + ": " + question;
-}
-
-bool IsShifted(const Model& model, const PathPoint& before, const PathPoint& now) {
-  const std::vector<double> from = model.InSceneUnits(before).positions, to = model.InSceneUnits(now).positions;
-  const double rounding = tolerances::kActive * model.scaling.length;
-  double apart = 0.0;
-  for (std::size_t i = 2; i < to.size(); ++i)
-    apart = std::max(apart, std::abs((to[i] - from[i]) - (to[i % 2] - from[i % 2])));
-  return apart <= rounding && std::hypot(to[0] - from[0], to[1] - from[1]) > rounding;
-}
-
-bool Approaches(const Model& model, const PathPoint& before, const PathPoint& now) {
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const ContactPair& contact = *model.contacts[i];
-    const double gap = contact.Nearest(now.u, now.s).distance;
-    if (gap < contact.Nearest(before.u, before.s).distance - tolerances::kActive) return true;
-  }
-  for (std::size_t i = model.contacts.size(); i < model.laws.size(); ++i)
-    if (model.laws[i].Reach(now.u, now.s) < model.laws[i].Reach(before.u, before.s) - tolerances::kActive) return true;
-  return false;
 }
 
 }  // namespace contact_path

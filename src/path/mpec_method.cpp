@@ -7,8 +7,8 @@
 
 #include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/equations/nearest_point.h"
-#include "contact_path/path/friction_end.h"
 #include "contact_path/path/model.h"
+#include "contact_path/path/scene_end.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -378,7 +378,8 @@ Advance MpecMethod::Next(const PathPoint& from) {
 
 std::unique_ptr<PathMethod> MakeMpecMethod(const MethodTask& task) {
   MpecOptions options = MpecOptions::For(task.options, AutomaticStepGrowth(task.model));
-  options.targets = FrictionEnds(task.model).LoadFactors();
+  for (const SceneEnd& end : SceneEnds(task.model))
+    if (end.target.unknown >= 0) options.targets.push_back(end.target.values.front());  // a load factor
   if (task.target) options.targets.push_back(*task.target);
   options.on_trial = task.control.on_trial;
   options.returns = task.returns;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "contact_path/path/end.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/text.h"
 #include "contact_path/tolerances.h"
@@ -15,6 +16,14 @@ constexpr std::size_t kPointsListed = 10;
 
 std::string Counted(int count, const char* what) {
   return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
+std::string PointsText(const std::vector<CriticalPoint>& points, double load_scale) {
+  std::vector<std::string> texts;
+  for (const CriticalPoint& point : points)
+    texts.push_back(std::string(ToString(point.kind)) + " at load factor " +
+                    LoadFactorText(point.load_factor, load_scale) + " (increment " + std::to_string(point.index) + ')');
+  return Listed(texts, kPointsListed);
 }
 
 }  // namespace
@@ -37,20 +46,10 @@ void PathSummary::Add(const Increment& increment) {
     crossings_.push_back(point);
 }
 
-std::string PathSummary::Listed(const std::vector<CriticalPoint>& points) const {
-  std::ostringstream text = ClassicStream();
-  const std::size_t listed = std::min(points.size(), kPointsListed);
-  for (std::size_t i = 0; i < listed; ++i)
-    text << (i == 0 ? "" : ", ") << ToString(points[i].kind) << " at load factor "
-         << LoadFactorText(points[i].load_factor, load_scale_) << " (increment " << points[i].index << ')';
-  if (listed < points.size()) text << " and " << points.size() - listed << " more";
-  return text.str();
-}
-
 std::string PathSummary::ToText() const {
   std::string text = Counted(increments_, "increment") + "; limit points: ";
-  text += limit_points_.empty() ? "none" : Listed(limit_points_);
-  if (!crossings_.empty()) text += "; another path crosses: " + Listed(crossings_);
+  text += limit_points_.empty() ? "none" : PointsText(limit_points_, load_scale_);
+  if (!crossings_.empty()) text += "; another path crosses: " + PointsText(crossings_, load_scale_);
   text += "; " + Counted(events_, "event");
   return jumps_ > 0 ? text + ", " + Counted(jumps_, "jump") : text;
 }

@@ -53,7 +53,7 @@ std::vector<Resultant> PinsAt(const Model& model, const CheckedState& state) {
   return pins;
 }
 
-InnerState InnerStateAt(const Model& model, const PathPoint& point) {
+PathState StateAt(const Model& model, const PathPoint& point) {
   CheckedState state = model.InSceneUnits(point);
   std::vector<ContactRecord> contacts = ContactsAt(model, point, state);
   std::vector<Resultant> pins = PinsAt(model, state);
@@ -64,11 +64,7 @@ InnerState InnerStateAt(const Model& model, const PathPoint& point) {
 }  // namespace
 
 void FillState(const Model& model, const PathPoint& point, Increment* increment) {
-  CheckedState state = model.InSceneUnits(point);
-  increment->contacts = ContactsAt(model, point, state);
-  increment->pins = PinsAt(model, state);
-  increment->positions = std::move(state.positions);
-  increment->rotations = std::move(state.rotations);
+  static_cast<PathState&>(*increment) = StateAt(model, point);
   increment->bars = model.BarStatesIn(point.modes);
   Reactions reactions = model.ReactionsAt(point);
   increment->supports = std::move(reactions.supports);
@@ -98,7 +94,8 @@ void Recorder::Start(const Model& model, int stage, const PathPoint& point, cons
   accepted.solve.exact = true;
   accepted.event = found.branches;
   accepted.stability = found.stability;
-  Fill(model, point, accepted, time);
+  accepted.point = point;
+  Fill(model, accepted, time);
   Give(increment_.load_factor);
 }
 
@@ -114,7 +111,7 @@ void Recorder::Append(const Model& model, const AcceptedPoint& accepted, double 
   increment_.dissipation += accepted.work.friction;
   increment_.external_work += accepted.work.loads;
   increment_.arc_length += accepted.arc_length;
-  Fill(model, accepted.point, accepted, time);
+  Fill(model, accepted, time);
   Give(load_before);
 }
 
@@ -127,22 +124,16 @@ Causes Recorder::Remarks() const {
   return remarks;
 }
 
-void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {
+void Recorder::Fill(const Model& model, const AcceptedPoint& accepted, double time) {
+  const PathPoint& point = accepted.point;
+  static_cast<IncrementFindings&>(increment_) = accepted;
+  increment_.solve.time = time;
   FillState(model, point, &increment_);
   FillLists(model, point, lists_, &increment_);
-  increment_.inner = accepted.inner ? InnerStateAt(model, *accepted.inner) : InnerState();
+  increment_.inner = accepted.inner ? StateAt(model, *accepted.inner) : InnerState();
   increment_.index = increments_;
-  increment_.load_factor = point.s * model.scaling.load_factor;
-  increment_.setting = accepted.setting;
-  increment_.kind = accepted.kind;
   increment_.strain_energy =
       (model.structure.Energy(point.u) + model.laws.Energy(point)) * model.scaling.force * model.scaling.length;
-  increment_.residuals = accepted.residuals;
-  increment_.solve = accepted.solve;
-  increment_.solve.time = time;
-  increment_.event = accepted.event;
-  increment_.stability = accepted.stability;
-  increment_.jump = accepted.jump;
 }
 
 void Recorder::Give(double load_before) {

@@ -13,12 +13,11 @@
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/earlier_trace.h"
-#include "contact_path/path/friction_end.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/machine_setting.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
-#include "contact_path/path/roller_end.h"
+#include "contact_path/path/scene_end.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/path/trace_end.h"
@@ -94,19 +93,19 @@ class Tracer {
 
   void TraceStages(const std::optional<Resumption>& resumption) {
     const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
-    for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
-      stage_ = stage;
+    for (stage_ = first; stage_ < NumStages(request_); ++stage_) {
       const Clock::time_point start = Clock::now();
-      auto next = std::make_unique<const Model>(StageScene(request_, index_, stage),
-                                                StageConfiguration(request_, index_, stage),
-                                                StageScales(request_, index_, stage, scales_));
-      if (stage > first && request_.options.max_increments > 0 && HasAllIncrements()) {
+      auto next = std::make_unique<const Model>(StageScene(request_, index_, stage_),
+                                                StageConfiguration(request_, index_, stage_),
+                                                StageScales(request_, index_, stage_, scales_));
+      const bool resumes = resumption && stage_ == first;
+      if (stage_ > first && request_.options.max_increments > 0 && HasAllIncrements()) {
         EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
         return;
       }
-      if (stage > first) {
+      if (stage_ > first) {
         point_ = next->Transfer(*model_, point_);
-      } else if (resumption) {
+      } else if (resumes) {
         point_ = next->FromIncrement(*resumption->from);
       } else {
         Preload preload = TraceStart(*next, request_.options.accuracy, control_.cancelled);
@@ -118,12 +117,12 @@ class Tracer {
       }
       model_ = std::move(next);
       setting_.emplace(*model_, request_.options.machine_stiffness);
-      setting_->Begin(point_, resumption && stage == first ? resumption->from->setting : 0.0);
+      setting_->Begin(point_, resumes ? resumption->from->setting : 0.0);
+      target_.reset();
+      if (!request_.program.empty()) target_ = request_.program[stage_].Target() / model_->scaling.load_factor;
       largest_reaction_.of_stage = 0.0;
       returns_.emplace(*model_, std::max(request_.options.full_state_every, 1), largest_reaction_);
-      if (!(resumption && stage == first ? ResumeStage(*model_, stage, *resumption)
-                                         : TraceStage(*model_, stage, start)))
-        return;
+      if (!(resumes ? ResumeStage(*resumption) : TraceStage(start))) return;
     }
   }
 
@@ -140,89 +139,70 @@ class Tracer {
   }
 
   // increment: index of the one to set out from.
-  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) {
+  std::unique_ptr<PathMethod> MakeMethod(int increment) {
     TraceOptions options = request_.options;
-    if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
-    if (options.method == Method::kMpec) return control_.mpec({model, options, target, &*returns_, control_});
-    BranchOptions branch = BranchOptions::For(options, AutomaticStepGrowth(model));
-    branch.load_factor = target;
-    branch.watch = [this, &model](const FixedModeSystem& system) {
-      return WatchedQuantities(model, request_, stage_, *setting_, system);
+    if (target_) options.direction = *target_ < 0.0 ? -1.0 : 1.0;
+    if (options.method == Method::kMpec) return control_.mpec({*model_, options, target_, &*returns_, control_});
+    BranchOptions branch = BranchOptions::For(options, AutomaticStepGrowth(*model_));
+    branch.load_factor = target_;
+    branch.watch = [this](const FixedModeSystem& system) {
+      return WatchedQuantities(*model_, request_, stage_, *setting_, system);
     };
     branch.increments = increment;
     branch.events = events_;
     branch.on_trial = control_.on_trial;
     branch.returns = &*returns_;
     branch.largest_reaction = &largest_reaction_;
-    branch.forward = options.DrivesForward(target || IsDriven(model.scene));
-    return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
-  }
-
-  // The scaled load factor at which a stage ends; nothing without a program.
-  std::optional<double> TargetOf(const Model& model, std::size_t stage) const {
-    if (request_.program.empty()) return std::nullopt;
-    return request_.program[stage].Target() / model.scaling.load_factor;
+    branch.forward = DrivesForward(model_->scene);
+    return std::make_unique<BranchMethod>(*model_, branch, control_.cancelled);
   }
 
   // From its first increment until its target. False: the trace has ended.
-  bool TraceStage(const Model& model, std::size_t stage, Clock::time_point start) {
-    const Residuals residuals = model.Check(point_, point_);
+  bool TraceStage(Clock::time_point start) {
+    const Residuals residuals = model_->Check(point_, point_);
     if (!(residuals.Largest() <= tolerances::kAccepted))
       return EndBy(EndReason::kNumericalFailure, {sentences::kStartNoEquilibrium});
     // Where events are located, reactions are measured by the force unit of the contact; where loads drive the path,
     // the load factor is as small as the reactions, though.
-    const bool measured = request_.options.LocatesEvents() && model.structure.ReferenceLoad().isZero(0.0);
+    const bool measured = request_.options.LocatesEvents() && model_->structure.ReferenceLoad().isZero(0.0);
     const double softest = measured ? tolerances::kDependentColumn : tolerances::kRootOfRounding;
-    if (Causes soft = ContactTooSoft(model, point_, softest); !soft.empty())
+    if (Causes soft = ContactTooSoft(*model_, point_, softest); !soft.empty())
       return EndWith({EndReason::kNotDetermined, std::move(soft)});
-    std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
+    const std::unique_ptr<PathMethod> method = MakeMethod(recorder_.increments());
     StartRecord found;
     std::optional<End> not_started = method->Start(point_, &found);
-    recorder_.Start(model, request_.program.empty() ? 0 : static_cast<int>(stage) + 1, point_, residuals, found,
+    recorder_.Start(*model_, request_.program.empty() ? 0 : static_cast<int>(stage_) + 1, point_, residuals, found,
                     Seconds(Clock::now() - start));
     stop_.Note(recorder_.increment());
-    return not_started ? EndWith(*std::move(not_started)) : FollowStage(model, stage, std::move(method));
-  }
-
-  // Where the point is at the end of what the scene describes.
-  std::optional<Cause> EndOfScene(const Model& model) const {
-    const std::optional<Cause> friction = FrictionEnds(model).At(point_);
-    return friction ? friction : RollerEnds(model).At(point_);
+    return not_started ? EndWith(*std::move(not_started)) : FollowStage(method.get());
   }
 
   // The same from an increment inside.
-  bool ResumeStage(const Model& model, std::size_t stage, const Resumption& resumption) {
-    const Residuals residuals = model.Check(point_, point_);
+  bool ResumeStage(const Resumption& resumption) {
+    const Residuals residuals = model_->Check(point_, point_);
     if (!(residuals.Largest() <=
           (resumption.from->solve.exact ? tolerances::kAccepted : tolerances::kAcceptedRegularised)))
       return EndBy(EndReason::kNumericalFailure, {sentences::kResumeNoEquilibrium});
     events_ = resumption.events;
-    Remember(model, resumption);
-    const std::optional<double> target = TargetOf(model, stage);
-    if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
-      return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
-    if (IsAt(target)) return EndStage(stage);
-    if (const std::optional<Cause> beyond = EndOfScene(model)) return EndBy(EndReason::kPathEnd, *beyond);
-    const PathPoint before = model.FromIncrement(*resumption.before);
+    Remember(resumption);
+    const PathPoint before = model_->FromIncrement(*resumption.before);
     may_snap_ = MaySnap(resumption.from->stability, request_.options.method == Method::kBranch);
-    if (const std::optional<Cause> escape =
-            Escape({request_, model, point_, before, target, largest_reaction_.of_trace, largest_load_, may_snap_}))
-      return EndBy(EndReason::kPathEnd, *escape);
-    std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
+    if (const std::optional<bool> ended = EndHere(before, {})) return *ended && EndStage();
+    const std::unique_ptr<PathMethod> method = MakeMethod(recorder_.increments() - 1);
     if (!method->Resume({before, point_, resumption.from->solve}))
       return EndBy(EndReason::kNumericalFailure, {sentences::kResumeLost});
-    return FollowStage(model, stage, std::move(method));
+    return FollowStage(method.get());
   }
 
   // The increments up to the one to go on from.
-  void Remember(const Model& model, const Resumption& resumption) {
+  void Remember(const Resumption& resumption) {
     std::optional<PathPoint> before;
     for (const Increment& increment : *resumption.increments) {
       if (increment.index > resumption.from->index) break;
       if (increment.positions.empty()) continue;
-      PathPoint point = model.FromIncrement(increment);
+      PathPoint point = model_->FromIncrement(increment);
       if (increment.stage != resumption.from->stage) {
-        largest_reaction_.of_trace = std::max(largest_reaction_.of_trace, model.laws.LargestForce(point));
+        largest_reaction_.of_trace = std::max(largest_reaction_.of_trace, model_->laws.LargestForce(point));
         continue;
       }
       NotePoint(point);
@@ -236,12 +216,12 @@ class Tracer {
     largest_reaction_.Note(model_->laws, point);
   }
 
-  bool FollowStage(const Model& model, std::size_t stage, std::unique_ptr<PathMethod> method) {
+  bool FollowStage(PathMethod* method) {
     NotePoint(point_);
-    const bool goes_on = Follow(model, TargetOf(model, stage), method.get());
+    const bool goes_on = Follow(method);
     events_ = method->NumEvents();
     Append(method->Remarks(), &remarks_);
-    return goes_on && EndStage(stage);
+    return goes_on && EndStage();
   }
 
   // otherwise: where the number of unstable directions is not known.
@@ -253,16 +233,14 @@ class Tracer {
     return recorder_.increment().index >= request_.options.LastIncrement(recorder_.first_of_stage());
   }
 
-  bool IsAt(std::optional<double> target) const { return target && IsAtTarget(point_.s, *target); }
-
   // At its target. False: it was the last one.
-  bool EndStage(std::size_t stage) {
-    if (stage + 1 < NumStages(request_)) return true;
+  bool EndStage() {
+    if (stage_ + 1 < NumStages(request_)) return true;
     return EndBy(EndReason::kStopCriterion, {sentences::kProgramDone});
   }
 
   // Until the target, or something ends the trace: then false.
-  bool Follow(const Model& model, std::optional<double> target, PathMethod* method) {
+  bool Follow(PathMethod* method) {
     for (;;) {
       if (control_.cancelled && control_.cancelled()) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
       if (HasAllIncrements()) return EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
@@ -271,7 +249,7 @@ class Tracer {
       const auto increments = static_cast<double>(std::max<std::size_t>(1, advance.increments.size()));
       const double time = Seconds(Clock::now() - start) / increments;
       for (AcceptedPoint& increment : advance.increments) {
-        if (const std::optional<bool> goes_on = Take(model, target, &increment, time)) return *goes_on;
+        if (const std::optional<bool> goes_on = Take(&increment, time)) return *goes_on;
         if (HasAllIncrements()) break;
       }
       if (HasAllIncrements()) continue;
@@ -280,26 +258,33 @@ class Tracer {
   }
 
   // Records the increment. Nothing: the path goes on; otherwise whether the stage was followed to its target.
-  std::optional<bool> Take(const Model& model, std::optional<double> target, AcceptedPoint* increment, double time) {
+  std::optional<bool> Take(AcceptedPoint* increment, double time) {
     NotePoint(increment->point);
-    if (std::optional<End> pulls = PullingContact(model, increment->point, largest_reaction_.of_trace))
+    if (std::optional<End> pulls = PullingContact(*model_, increment->point, largest_reaction_.of_trace))
       return EndWith(*std::move(pulls));
     const bool jumped = increment->kind == IncrementKind::kJump;
-    if (Causes overrun = jumped ? Causes() : OverrunContact(model, point_, increment->point); !overrun.empty())
+    if (Causes overrun = jumped ? Causes() : OverrunContact(*model_, point_, increment->point); !overrun.empty())
       return EndWith({EndReason::kNumericalFailure, std::move(overrun)});
     increment->setting = setting_->At(increment->point.u, increment->point.s);
-    recorder_.Append(model, *increment, time);
+    recorder_.Append(*model_, *increment, time);
     may_snap_ = MaySnap(increment->stability, increment->stiffness_sign < 0);
     if (!jumped) returns_->Add(recorder_.increment().index, point_, increment->point);
     const PathPoint before = std::exchange(point_, std::move(increment->point));
-    if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment(), increment->at_criteria))
+    return EndHere(before, increment->at_criteria);
+  }
+
+  // Whether the path ends in the last increment, or its stage does: nothing, or as Take(). at_criteria: as of the
+  // increment.
+  std::optional<bool> EndHere(const PathPoint& before, const std::vector<int>& at_criteria) {
+    if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment(), at_criteria))
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
     stop_.Note(recorder_.increment());
-    if (IsAt(target)) return true;
-    if (const std::optional<Cause> beyond = EndOfScene(model)) return EndBy(EndReason::kPathEnd, *beyond);
-    if (const std::optional<Cause> escape =
-            Escape({request_, model, point_, before, target, largest_reaction_.of_trace, largest_load_, may_snap_}))
-      return EndBy(EndReason::kPathEnd, *escape);
+    if (target_ && IsAtTarget(point_.s, *target_)) return true;
+    std::optional<Cause> end = EndOfScene(*model_, point_);
+    // A stop criterion may yet be met.
+    if (!end && request_.options.stop.empty() && largest_reaction_.of_trace > 0.0)
+      end = Escape(*model_, before, point_, target_, largest_load_, may_snap_);
+    if (end) return EndBy(EndReason::kPathEnd, *end);
     return std::nullopt;
   }
 
@@ -314,6 +299,7 @@ class Tracer {
   int events_ = 0;
   std::size_t stage_ = 0;                  // from 0
   std::unique_ptr<const Model> model_;     // of the stage
+  std::optional<double> target_;           // scaled load factor at which the stage ends; nothing without a program
   std::optional<MachineSetting> setting_;  // of the stage
   std::optional<ReturnDetector> returns_;  // of the stage
   bool handing_out_ = false;               // an increment, to the caller

@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/path/friction_end.h"
 #include "contact_path/path/recorder.h"
-#include "contact_path/path/roller_end.h"
+#include "contact_path/path/scene_end.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/change_units.h"
 #include "contact_path/scene/quantity.h"
@@ -155,8 +154,7 @@ ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, st
   }
   for (const Samples& samples : request.options.at)
     Add(model, request, stage, setting, system, samples.quantity, samples.Values(), 0.0, -1, &targets);
-  FrictionEnds(model).AddTo(&targets);
-  RollerEnds(model).AddTo(&targets);
+  for (const SceneEnd& end : SceneEnds(model)) targets.push_back(end.target);
   return targets;
 }
 

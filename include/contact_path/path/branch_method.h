@@ -8,7 +8,6 @@
 
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/mode_arc.h"
-#include "contact_path/path/balanced_step.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
 #include "contact_path/path/event_passing.h"
@@ -18,6 +17,8 @@
 #include "contact_path/path/path_method.h"
 
 namespace contact_path {
+
+struct BalancedStep;
 
 // Located events and smooth arcs between them.
 class BranchMethod : public PathMethod {

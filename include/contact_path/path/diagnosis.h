@@ -25,13 +25,6 @@ void NameInvertedElement(const Model& model, const PathPoint& point, End* end);
 // plane strain; empty: none are. index: of the scene.
 Causes LockingSolids(const Scene& scene, const SceneIndex& index);
 
-// Names the most slender beam, where it is so stiff along its axis that its bending drowns in rounding; else empty.
-Causes SlenderBeam(const Scene& scene, const SceneIndex& index);
-
-// Where constant loads are a weight, and not a disturbance of others, and rounding of the coordinates of stiff parts
-// makes forces that are more than a millionth of them: how large these are; else empty.
-Causes LightLoads(const Model& model);
-
 // A contact at whose node all parts are softer than `least`, scaled, but not without stiffness: beside the stiff parts
 // the sign of their stiffness is lost in rounding. Else empty. point: where to look, scaled.
 Causes ContactTooSoft(const Model& model, const PathPoint& point, double least);
@@ -74,21 +67,11 @@ Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, doub
 // where to look, scaled.
 Causes BehindBoundary(const Model& model, const PathPoint& point);
 
-// Names the nodes that are deepest in obstacles for which they are no candidates and in which they were not at the
-// start; else empty. start: the scene of the request. point: of `model`, where to look, scaled.
-Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint& point);
-
 // Where a contact pulls at its node, by more than rounding and by more than a share of the largest reaction so far: it
 // should have opened, and did not. The sign of its reaction is not known, where the pull is below what a step sees of a
 // reaction that changes its sign. largest_reaction: of the path so far, the point included, in the force unit of the
 // contact.
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction);
-
-// The end that the user had in mind, where the path did not come to it. stage: of the last increment.
-Causes MissedEnd(const TraceRequest& request, int stage);
-
-// Choices of branches that the path never came to. increments, events: their numbers.
-Causes MissedChoices(const TraceRequest& request, int increments, int events);
 
 }  // namespace contact_path
 

@@ -2,12 +2,15 @@
 #ifndef CONTACT_PATH_PATH_END_H_
 #define CONTACT_PATH_PATH_END_H_
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/words.h"
 
 namespace contact_path {
 
@@ -27,9 +30,23 @@ enum class EndReason {
   kNoLanding,  // a jump was followed for long and came to no equilibrium
 };
 
-// "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure",
-// "closed_path", "memory_limit", "element_inverted", "not_determined", "at_limit", "no_landing".
-std::string_view ToString(EndReason reason);
+template <>
+struct Words<EndReason> {
+  static constexpr EndReason kDefault = EndReason::kNumericalFailure;
+  static constexpr std::pair<std::string_view, EndReason> kAll[] = {{"numerical_failure", EndReason::kNumericalFailure},
+                                                                    {"stop_criterion", EndReason::kStopCriterion},
+                                                                    {"max_increments", EndReason::kMaxIncrements},
+                                                                    {"path_end", EndReason::kPathEnd},
+                                                                    {"step_too_small", EndReason::kStepTooSmall},
+                                                                    {"cancelled", EndReason::kCancelled},
+                                                                    {"no_such_branch", EndReason::kNoSuchBranch},
+                                                                    {"closed_path", EndReason::kClosedPath},
+                                                                    {"memory_limit", EndReason::kMemoryLimit},
+                                                                    {"element_inverted", EndReason::kElementInverted},
+                                                                    {"not_determined", EndReason::kNotDetermined},
+                                                                    {"at_limit", EndReason::kAtLimit},
+                                                                    {"no_landing", EndReason::kNoLanding}};
+};
 
 // Whether numbers end the trace, and not the structure or the caller.
 bool IsNumerical(EndReason reason);
@@ -62,6 +79,10 @@ struct End {
 
 // One line for a person.
 std::string EndText(const Causes& causes);
+
+// "a, b"; where there are more than `most`, the first ones "and 7 more" behind this.
+std::string Listed(const std::vector<std::string>& parts, std::size_t most = std::string::npos,
+                   std::string_view behind = " ");
 
 }  // namespace contact_path
 

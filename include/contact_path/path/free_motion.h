@@ -26,13 +26,6 @@ std::string FreeMotionText(const Model& model, const PathPoint& point, double fo
 // last question. Empty where no node moves freely.
 std::string FreeMotionQuestion(const Model& model, const PathPoint& point, double force);
 
-// Whether all nodes have moved by one vector, by more than rounding. A part that swings about a support may come round
-// to an obstacle again.
-bool IsShifted(const Model& model, const PathPoint& before, const PathPoint& now);
-
-// Whether a gap has become smaller, by more than rounding.
-bool Approaches(const Model& model, const PathPoint& before, const PathPoint& now);
-
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_PATH_FREE_MOTION_H_

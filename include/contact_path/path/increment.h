@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
@@ -19,6 +20,7 @@
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/words.h"
 #include "contact_path/stability/verdict.h"
 
 namespace contact_path {
@@ -33,6 +35,20 @@ enum class IncrementKind {
   kSample,        // a quantity has a value that the request asks for, and none of the above
   kOnset,         // the equilibrium ceases to be stable, and none of the above
   kJump,          // where a jump from the increment before has landed
+};
+
+template <>
+struct Words<IncrementKind> {
+  static constexpr IncrementKind kDefault = IncrementKind::kRegular;
+  static constexpr std::pair<std::string_view, IncrementKind> kAll[] = {{"start", IncrementKind::kStart},
+                                                                        {"regular", IncrementKind::kRegular},
+                                                                        {"smooth_limit", IncrementKind::kSmoothLimit},
+                                                                        {"corner_limit", IncrementKind::kCornerLimit},
+                                                                        {"contact_event", IncrementKind::kContactEvent},
+                                                                        {"bifurcation", IncrementKind::kBifurcation},
+                                                                        {"sample", IncrementKind::kSample},
+                                                                        {"onset", IncrementKind::kOnset},
+                                                                        {"jump", IncrementKind::kJump}};
 };
 
 // Of an increment.
@@ -81,17 +97,21 @@ constexpr auto Fields(Of<ContactRecord>) {
   return std::tuple(Member("gap", &P::gap), Member("rn", &P::rn), Member("rt", &P::rt), Member("state", &P::state));
 }
 
-// A state inside an increment, on the arc that it follows. Empty lists: there is none.
-struct InnerState {
-  double load_factor = 0.0;
-  std::vector<double> positions;  // as those of the increment
+// A state on the path.
+struct PathState {
+  double load_factor = 0.0;       // of the stage
+  std::vector<double> positions;  // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
+  // Since the start, by node; 0 for a node that no beam turns [rad]. Empty in a scene without beams.
   std::vector<double> rotations;
-  std::vector<ContactRecord> contacts;
-  std::vector<Resultant> pins;
+  std::vector<ContactRecord> contacts;  // in scene order
+  std::vector<Resultant> pins;  // force on the first node by the second, moment of the spring on it; in scene order
 };
 
+// Inside an increment, on the arc that it follows. Empty lists: there is none.
+using InnerState = PathState;
+
 template <typename P>
-constexpr auto Fields(Of<InnerState>) {
+constexpr auto Fields(Of<PathState>) {
   return std::tuple(Member("load_factor", &P::load_factor), Member("positions", &P::positions),
                     Member("rotations", &P::rotations), Member("contacts", &P::contacts), Member("pins", &P::pins));
 }
@@ -166,19 +186,23 @@ constexpr auto Fields(Of<EventRecord>) {
                     Member("complete_by", &P::complete_by), Member("null_vector", &P::null_vector));
 }
 
-struct Increment {
-  int index = 0;
-  int stage = 0;             // of the program, from 1; 0 = there is none
-  double load_factor = 0.0;  // of the stage
-  double setting = 0.0;      // X of the machine (TraceOptions::machine_stiffness), 0 where the stage begins
-  double arc_length = 0.0;   // since increment 0, in the scaled norm
+// What a method found of the state at the end of an increment.
+struct IncrementFindings {
   IncrementKind kind = IncrementKind::kRegular;
-  std::vector<double> positions;  // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
-  // Since the start, by node; 0 for a node that no beam turns [rad]. Empty in a scene without beams.
-  std::vector<double> rotations;
-  std::vector<ContactRecord> contacts;  // in scene order
-  std::vector<Resultant> supports;      // on the structure, by SupportedNodes() of the scene (scene/scene_index.h)
-  std::vector<Resultant> boundaries;    // of all contacts with it, by TouchedBoundaries() of the scene
+  double setting = 0.0;  // X of the machine (TraceOptions::machine_stiffness), 0 where the stage begins
+  Residuals residuals;   // by check/, from the scene alone
+  SolveRecord solve;
+  EventRecord event;
+  StabilityRecord stability;
+  JumpRecord jump;
+};
+
+struct Increment : PathState, IncrementFindings {
+  int index = 0;
+  int stage = 0;                      // of the program, from 1; 0 = there is none
+  double arc_length = 0.0;            // since increment 0, in the scaled norm
+  std::vector<Resultant> supports;    // on the structure, by SupportedNodes() of the scene (scene/scene_index.h)
+  std::vector<Resultant> boundaries;  // of all contacts with it, by TouchedBoundaries() of the scene
   // Where the request wants them, else empty: in the order of scene/scene_index.h.
   std::vector<SectionForces> sections;
   std::vector<SolidStress> stresses;
@@ -188,13 +212,7 @@ struct Increment {
   double dissipation = 0.0;                // since increment 0, by friction; total law: work against it [force length]
   double strain_energy = 0.0;              // now [force length]
   double external_work = 0.0;              // of all loads since increment 0 [force length]
-  Residuals residuals;                     // by check/, from the scene alone
-  SolveRecord solve;
-  EventRecord event;
-  StabilityRecord stability;
-  JumpRecord jump;
-  std::vector<BarState> bars;   // of OneSidedBars() of the scene, on the arc of the path that ends here
-  std::vector<Resultant> pins;  // force on the first node by the second, moment of the spring on it; in scene order
+  std::vector<BarState> bars;              // of OneSidedBars() of the scene, on the arc of the path that ends here
 };
 
 // All fields except positions, rotations, contacts, residuals, stability and jump: a message has them in another form,
@@ -211,12 +229,8 @@ constexpr auto Fields(Of<Increment>) {
                     Member("pins", &P::pins));
 }
 
-// What check/ looks at of an increment that has its state.
-CheckedState StateOf(const Increment& increment);
-CheckedState StateOf(const InnerState& inner);
-
-// "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation", "sample", "onset", "jump".
-std::string_view ToString(IncrementKind kind);
+// What check/ looks at.
+CheckedState StateOf(const PathState& recorded);
 
 }  // namespace contact_path
 

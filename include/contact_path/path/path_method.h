@@ -15,20 +15,13 @@
 namespace contact_path {
 
 // A point that passed the check.
-struct AcceptedPoint {
+struct AcceptedPoint : IncrementFindings {  // solve: without time
   PathPoint point;
-  IncrementKind kind = IncrementKind::kRegular;
-  double setting = 0.0;            // of the machine (Increment::setting)
   double arc_length = 0.0;         // of the increment, scaled norm
   Work work;                       // of the increment
   std::optional<PathPoint> inner;  // at the middle of its step, where it is wanted
-  Residuals residuals;
-  SolveRecord solve;  // without time
   // Branch: of det of the tangent at fixed load, contacts in their states; 0 = singular, or not known.
   int stiffness_sign = 0;
-  EventRecord event;
-  StabilityRecord stability;
-  JumpRecord jump;
   std::vector<int> at_criteria;  // of options.stop: whose value the point has, exactly
 };
 

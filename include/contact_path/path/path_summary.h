@@ -45,8 +45,6 @@ class PathSummary {
   std::string ToText(std::string_view reason, const std::string& message) const;
 
  private:
-  std::string Listed(const std::vector<CriticalPoint>& points) const;
-
   double load_scale_;
   int increments_ = 0;
   int events_ = 0;

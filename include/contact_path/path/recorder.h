@@ -16,7 +16,7 @@ namespace contact_path {
 // The lists as of the point.
 void FillLists(const Model& model, const PathPoint& point, const LongLists& lists, Increment* increment);
 
-// Positions, contacts and reactions of the increment as of the point.
+// The state of the increment, load factor included, its bars and reactions as of the point.
 void FillState(const Model& model, const PathPoint& point, Increment* increment);
 
 class Recorder {
@@ -45,7 +45,7 @@ class Recorder {
   Causes Remarks() const;
 
  private:
-  void Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time);
+  void Fill(const Model& model, const AcceptedPoint& accepted, double time);
   // load_before: of the increment before.
   void Give(double load_before);
 

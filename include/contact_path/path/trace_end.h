@@ -11,20 +11,11 @@
 
 namespace contact_path {
 
-// A trace between two points, with the largest reaction and load factor so far, scaled.
-struct Escaping {
-  const TraceRequest& request;
-  const Model& model;
-  const PathPoint& now;
-  const PathPoint& before;
-  std::optional<double> target;  // scaled load factor
-  double largest_reaction, largest_load;
-  bool may_snap;  // there is, or may be, an unstable direction under dead loads
-};
-
-// Why no further increment is of use: no contact is left, and the load moves away from its target, or nothing holds the
-// structure. Nothing: it may be; a stop criterion may yet be met.
-std::optional<Cause> Escape(const Escaping& trace);
+// Why no further increment is of use, though all goes on from one point of the path to the next: no contact is left,
+// and the load moves away from its target, or nothing holds the structure. Nothing: it may be. target, largest_load:
+// load factors, scaled. may_snap: there is, or may be, an unstable direction under dead loads.
+std::optional<Cause> Escape(const Model& model, const PathPoint& before, const PathPoint& now,
+                            std::optional<double> target, double largest_load, bool may_snap);
 
 struct EndedTrace {
   const TraceRequest& request;
@@ -33,8 +24,8 @@ struct EndedTrace {
   const PathPoint& point;
   EndReason reason;
   const Recorder& recorder;
-  const Causes& of_methods;  // remarks
-  double largest_reaction, largest_load;
+  const Causes& of_methods;               // remarks
+  double largest_reaction, largest_load;  // scaled
   int events;
 };
 

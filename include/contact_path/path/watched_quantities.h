@@ -10,7 +10,7 @@
 
 namespace contact_path {
 
-// Of options.at, of the exact criteria of options.stop, and where friction ends (path/friction_end.h); scaled by the
+// Of options.at, of the exact criteria of options.stop, and where the scene ends (path/scene_end.h); scaled by the
 // unit of each quantity. model: of a stage of the request, from 0; setting: of its machine; system: of the arcs. All
 // must outlive the result.
 ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage,
