@@ -59,13 +59,13 @@ void RegularIncrements(benchmark::State& state, TraceRequest request, double flo
     while (regular < kIncrements) {
       const std::clock_t start = std::clock();
       const Advance advance = method.Next(point);
-      for (const AcceptedPoint& accepted : advance.increments) recorder.Append(model, accepted, 0.0);
+      if (advance.increment) recorder.Append(model, *advance.increment, 0.0);
       const double time = Seconds(start);
-      if (advance.increments.empty()) throw std::runtime_error("no increment");
-      point = advance.increments.back().point;
-      if (advance.increments.back().kind != IncrementKind::kRegular) continue;
+      if (!advance.increment) throw std::runtime_error("no increment");
+      point = advance.increment->point;
+      if (advance.increment->kind != IncrementKind::kRegular) continue;
       seconds += time;
-      factorised += advance.increments.back().solve.factorisations;
+      factorised += advance.increment->solve.factorisations;
       ++regular;
     }
     state.SetIterationTime(seconds / regular);

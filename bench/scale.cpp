@@ -62,8 +62,8 @@ void AlongThePath(const TraceRequest& given, bool events, benchmark::State& stat
       const Clock::time_point start = Clock::now();
       const Advance advance = method.Next(point);
       const double time = Seconds(start);
-      if (advance.increments.empty()) throw std::runtime_error("no increment");
-      const AcceptedPoint& increment = advance.increments.back();
+      if (!advance.increment) throw std::runtime_error("no increment");
+      const AcceptedPoint& increment = *advance.increment;
       point = increment.point;
       if ((increment.kind == IncrementKind::kRegular) == events) continue;
       if (++counted == 0) continue;
@@ -166,9 +166,9 @@ void MpecIncrement(benchmark::State& state) {
     const Clock::time_point start = Clock::now();
     for (int k = 0; k < kIncrements; ++k) {
       const Advance advance = method.Next(point);
-      if (advance.increments.empty()) throw std::runtime_error("no increment");
-      point = advance.increments.back().point;
-      iterations += advance.increments.back().solve.iterations;
+      if (!advance.increment) throw std::runtime_error("no increment");
+      point = advance.increment->point;
+      iterations += advance.increment->solve.iterations;
     }
     const double time = Seconds(start) / kIncrements;
     state.counters["iterations"] = iterations / kIncrements;

@@ -103,7 +103,8 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
   bool ended = method->Start(point, &found).has_value();
   while (!ended) {
     const Advance advance = method->Next(point);
-    for (const AcceptedPoint& accepted : advance.increments) {
+    if (advance.increment) {
+      const AcceptedPoint& accepted = *advance.increment;
       point = accepted.point;
       append(point, &accepted);
       path.iterations += accepted.solve.iterations;
@@ -347,10 +348,10 @@ void MeasureModels() {
       int increments = 0;
       while (increments < kRows) {
         const Advance advance = tracer->Next(point);
-        if (advance.increments.empty()) break;
-        point = advance.increments.back().point;
-        solve = advance.increments.back().solve;
-        increments += static_cast<int>(advance.increments.size());
+        if (!advance.increment) break;
+        point = advance.increment->point;
+        solve = advance.increment->solve;
+        ++increments;
       }
       std::printf("%s,%s,%d,%d,%.6g\n", name, method, solve.variables, solve.constraints,
                   std::chrono::duration<double>(Clock::now() - begin).count() / increments);

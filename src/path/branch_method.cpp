@@ -74,8 +74,7 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       options_(options),
       cancelled_(std::move(cancelled)),
       limit_(model, options, cancelled_),
-      departure_(model, {limit_.parameter(), options.forward, !limit_.IsFollowed(), options.largest_reaction},
-                 cancelled_),
+      departure_(model, options_, limit_.parameter(), cancelled_),
       arc_(model.structure, model.laws),
       events_(model, options_, &limit_, &departure_, &arc_),
       onsets_(model, &limit_, &arc_),
@@ -144,7 +143,7 @@ Advance BranchMethod::TakeJump(const PathPoint& from) {
     increment.kind = IncrementKind::kContactEvent;
     increment.event.number = events_.Count();
   }
-  advance.increments.push_back(std::move(increment));
+  advance.increment = std::move(increment);
   return advance;
 }
 
@@ -171,9 +170,7 @@ Advance BranchMethod::ChangeReactions(const PathPoint& from) {
   increment.solve.next_step = step_length_;
   if (!(increment.residuals.Largest() <= tolerances::kAccepted)) return Ended(Failure(sentences::kReactionsAtRest));
   ++increments_;
-  Advance advance;
-  advance.increments.push_back(std::move(increment));
-  return advance;
+  return {std::move(increment), std::nullopt};
 }
 
 AcceptedPoint BranchMethod::IncrementAt(PathPoint point, const PathPoint& from) const {
@@ -257,11 +254,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (onset) returned.reset();
   if (!(increment.residuals.Largest() <= tolerances::kAccepted)) {
     End end = Failure(sentences::kResiduals);
-    Append(CurveTooSharp(model_, increment.point), &end.causes);
-    Append(BeyondHalfRound(model_, increment.residuals), &end.causes);
-    Append(BehindBoundary(model_, increment.point), &end.causes);
-    Append(TouchesTwice(model_, increment.point), &end.causes);
-    Append(IsClamped(model_, increment.point), &end.causes);
+    Append(WhyRefused(model_, increment.point, increment.residuals), &end.causes);
     return Ended(end);
   }
   departure_.NoteReactions(increment.point);
@@ -307,7 +300,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (decides_behind) step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
   increment.solve.next_step = limit_.Leaves() ? 0.0 : step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
-  advance.increments.push_back(std::move(increment));
+  advance.increment = std::move(increment);
   return advance;
 }
 

@@ -1,6 +1,8 @@
 #include "contact_path/path/branch_options.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace contact_path {
 
@@ -10,19 +12,10 @@ std::string PlaceOf(const BranchChoice& choice) {
 
 BranchOptions BranchOptions::For(const TraceOptions& options, double growth) {
   BranchOptions result;
-  switch (options.accuracy) {
-    case Accuracy::kFast:
-      result.step = 0.05;
-      result.prediction = 1e-2;
-      result.smallest_cosine = 0.9;
-      break;
-    case Accuracy::kBalanced: break;
-    case Accuracy::kAccurate:
-      result.step = 0.005;
-      result.prediction = 1e-4;
-      result.smallest_cosine = 0.998;
-      break;
-  }
+  const auto accuracy = static_cast<std::size_t>(options.accuracy);  // fast, balanced, accurate
+  result.step = std::array{0.05, 0.02, 0.005}[accuracy];
+  result.prediction = std::array{1e-2, 1e-3, 1e-4}[accuracy];
+  result.smallest_cosine = std::array{0.9, 0.98, 0.998}[accuracy];
   result.step = options.step > 0.0 ? options.step : result.step * growth;
   result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
   result.direction = options.Direction();

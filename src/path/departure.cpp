@@ -1,11 +1,12 @@
 #include "contact_path/path/departure.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
-#include "contact_path/path/branch_options.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/sentences.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -36,6 +37,34 @@ Cause NoBranch(const BranchSet& on) {
   return {on.complete_by == Completeness::kNone ? sentences::kNoBranchFound : sentences::kNoBranch};
 }
 
+std::string_view SignOfRate(ContactLimit limit) {
+  switch (limit) {
+    case ContactLimit::kGap: return sentences::kGapRateSign;
+    case ContactLimit::kNormalReaction: return sentences::kReactionRateSign;
+    case ContactLimit::kConePlus:
+    case ContactLimit::kConeMinus: return sentences::kMarginRateSign;
+    case ContactLimit::kSlip:
+    case ContactLimit::kTotalSlip: return sentences::kSlipRateSign;
+    case ContactLimit::kPatchBegin:
+    case ContactLimit::kPatchEnd: break;
+  }
+  return sentences::kPatchRateSign;
+}
+
+// Where the path arrives, along `at`, at a limit that fails by a rate within the tolerance.
+End UnknownRate(const Model& model, const Limit& limit, const FixedModeSystem& system, const CurvePoint& at) {
+  const double unit = system.OfModes().RuleOf(limit).OfForces() ? model.scaling.force : model.scaling.length;
+  const double rate = unit * system.OfModes().Rate(limit, at.x, at.first);
+  const double tolerance = unit * tolerances::kRate * system.UnitOf(limit);
+  // Pins have no limits.
+  const auto i = static_cast<std::size_t>(limit.law);
+  const bool of_bar = i >= model.LawOfBar(0);
+  return {EndReason::kNotDetermined,
+          {{of_bar ? sentences::kBarRateSign : SignOfRate(static_cast<ContactLimit>(limit.id)),
+            of_bar ? OneSidedBars(model.scene)[i - model.LawOfBar(0)].name : model.scene.contacts[i].Name(), rate,
+            tolerance}}};
+}
+
 }  // namespace
 
 void RecordBranches(const Model& model, const std::vector<Branch>& branches, EventRecord* record) {
@@ -55,9 +84,11 @@ std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const B
   return std::nullopt;
 }
 
-Departure::Departure(const Model& model, const DepartureOptions& options, std::function<bool()> cancelled)
+Departure::Departure(const Model& model, const BranchOptions& options, const PathParameter& parameter,
+                     std::function<bool()> cancelled)
     : model_(model),
       options_(options),
+      parameter_(parameter),
       cancelled_(std::move(cancelled)),
       largest_reaction_(options.largest_reaction == nullptr ? &own_ : options.largest_reaction) {}
 
@@ -71,15 +102,15 @@ Arrival Departure::StartArrival() const {
   Arrival arrival;
   arrival.is_start = true;
   const Eigen::Index n = model_.structure.NumDofs() + 1;
-  arrival.direction = options_.parameter.WantedSense() * Eigen::VectorXd::Unit(n, n - 1);
+  arrival.direction = parameter_.WantedSense() * Eigen::VectorXd::Unit(n, n - 1);
   return arrival;
 }
 
 std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, ModeArc* arc,
                                     CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
-  arrival.parameter = options_.parameter;
-  arrival.forward = options_.forward && options_.parameter.Sense(arrival.direction, arrival.direction.size()) >= 0;
+  arrival.parameter = parameter_;
+  arrival.forward = options_.forward && parameter_.Sense(arrival.direction, arrival.direction.size()) >= 0;
   ActiveSetTolerance tolerance = ToleranceAt(point);
   tolerance.motion = CoverMotions(model_.laws, point, tolerance.motion);
   const BranchSet on = FindBranches(model_.structure, model_.laws, point, arrival, tolerance, cancelled_);
@@ -88,7 +119,7 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
   record->complete = on.complete_by != Completeness::kNone;
   record->complete_by = ToString(on.complete_by);
   RecordBranches(model_, on.branches, record);
-  if (on.branches.empty() && arrival.failed) return UnknownRate(*arrival.failed, arc->system(), *current);
+  if (on.branches.empty() && arrival.failed) return UnknownRate(model_, *arrival.failed, arc->system(), *current);
   if (on.branches.empty()) {
     End end{EndReason::kPathEnd, {NoBranch(on)}};
     Append(StandsAtEnd(model_, point), &end.causes);
@@ -101,7 +132,8 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
   if (!taken) return end;
   const Branch& branch = on.branches[*taken];
   if (branch.mechanism) return End{EndReason::kPathEnd, {{sentences::kBecameMechanism}}};
-  const bool goes_back = arrival.forward && branch.sense < 0 && choice == nullptr && !options_.ends_at_limit;
+  const bool goes_back =
+      arrival.forward && branch.sense < 0 && choice == nullptr && options_.at_limit == AtLimit::kFollow;
   if (goes_back && !record->complete) return End{EndReason::kNotDetermined, {{sentences::kMayGoOn}}};
   record->taken = static_cast<int>(*taken) + 1;
   other_reactions_ = other_reactions_ || branch.other_reactions;
@@ -113,14 +145,6 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
   if (!SetOut(begin_ ? *begin_ : point, branch, arc, current))
     return End{EndReason::kNumericalFailure, {{sentences::kBranchLost}}};
   return std::nullopt;
-}
-
-// Where the path arrives at a limit that fails by a rate within the tolerance.
-End Departure::UnknownRate(const Limit& limit, const FixedModeSystem& system, const CurvePoint& at) const {
-  const double unit = system.OfModes().RuleOf(limit).OfForces() ? model_.scaling.force : model_.scaling.length;
-  return {EndReason::kNotDetermined,
-          {UnknownRateCause(model_, limit, unit * system.OfModes().Rate(limit, at.x, at.first),
-                            unit * tolerances::kRate * system.UnitOf(limit))}};
 }
 
 // Sets out on a branch from `point`. False: it cannot be followed.

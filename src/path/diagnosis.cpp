@@ -27,20 +27,6 @@ std::string SolidName(const Scene& scene, std::size_t i) {
   return "solids[" + std::to_string(i) + "]" + (name.empty() ? name : " (" + name + ")");
 }
 
-std::string_view SignOfRate(ContactLimit limit) {
-  switch (limit) {
-    case ContactLimit::kGap: return sentences::kGapRateSign;
-    case ContactLimit::kNormalReaction: return sentences::kReactionRateSign;
-    case ContactLimit::kConePlus:
-    case ContactLimit::kConeMinus: return sentences::kMarginRateSign;
-    case ContactLimit::kSlip:
-    case ContactLimit::kTotalSlip: return sentences::kSlipRateSign;
-    case ContactLimit::kPatchBegin:
-    case ContactLimit::kPatchEnd: break;
-  }
-  return sentences::kPatchRateSign;
-}
-
 // The sharpest curve of its obstacle on which a contact stands, or which begins where it stands. Scaled.
 struct SharpestCurve {
   double curvature = 0.0;  // > 0 on both sides
@@ -125,6 +111,46 @@ Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::v
   return found;
 }
 
+// Names an open contact whose node has come past an end of its boundary and is behind the boundary.
+Causes BehindBoundary(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& pair = *model.contacts[i];
+    const bool ends = pair.Deformable() || (pair.HasPatches() && pair.Round() == 0.0);
+    if (!ends || StateOf(point, i) != ContactState::kOpen) continue;
+    const double gap = pair.Gap(point.u, point.s, kNearestPatch);
+    if (gap < -tolerances::kTouching)
+      return {{pair.Deformable() ? sentences::kBehindSurface : sentences::kBehindObstacle,
+               model.scene.contacts[i].Name(), -gap * model.scaling.length}};
+  }
+  return {};
+}
+
+// Names a circle that has come upon a second part of the obstacle on which it rolls.
+Causes TouchesTwice(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    if (StateOf(point, i) == ContactState::kOpen) continue;
+    if (model.contacts[i]->TouchesTwice(point.u, point.s, point.modes[i].piece))
+      return {{sentences::kTouchesTwice, model.scene.contacts[i].Name()}};
+  }
+  return {};
+}
+
+// Names a contact of a rigid body, or a pin, that gives way by more than stands for the rigid.
+Causes IsClamped(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.laws.size(); ++i) {
+    if (model.laws[i].Elastic()) continue;
+    double given = 0.0;
+    for (std::size_t p = 0; p < model.laws[i].NumPorts(); ++p)
+      given = std::hypot(given, model.laws[i].In(point.modes[i]).ports[p].compliance *
+                                    point.forces[model.laws.FirstPort(i) + static_cast<Eigen::Index>(p)]);
+    if (given <= kMostGiven) continue;
+    const std::size_t pin = i - std::min(i, model.LawOfPin(0));
+    return {{sentences::kIsClamped, i < model.contacts.size() ? "contact " + model.scene.contacts[i].Name()
+                                                              : "pin " + PinName(model.scene.pins[pin], pin)}};
+  }
+  return {};
+}
+
 }  // namespace
 
 Causes CollapsedPart(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
@@ -204,12 +230,16 @@ Causes HiddenSlip(const Model& model, const PathPoint& point) {
   return {};
 }
 
-Causes BeyondHalfRound(const Model& model, const Residuals& residuals) {
-  if (!(residuals.friction_law > tolerances::kAccepted)) return {};
-  const bool possible = std::any_of(model.contacts.begin(), model.contacts.end(),
-                                    [](const auto& contact) { return contact->Holonomic() && contact->Round() > 0.0; });
-  if (!possible) return {};
-  return {{sentences::kHalfRound}};
+Causes WhyRefused(const Model& model, const PathPoint& point, const Residuals& residuals) {
+  Causes causes = CurveTooSharp(model, point);
+  // check/ measures slip along the shorter way round: beyond half a round it changes its sign.
+  const auto goes_round = [](const auto& contact) { return contact->Holonomic() && contact->Round() > 0.0; };
+  if (residuals.friction_law > tolerances::kAccepted &&
+      std::any_of(model.contacts.begin(), model.contacts.end(), goes_round))
+    causes.push_back({sentences::kHalfRound});
+  for (const Causes& found : {BehindBoundary(model, point), TouchesTwice(model, point), IsClamped(model, point)})
+    Append(found, &causes);
+  return causes;
 }
 
 Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to) {
@@ -218,30 +248,6 @@ Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint
     if (!pair.Deformable() || StateOf(to, i) == ContactState::kOpen) continue;
     if (pair.Overrun(from.u, to.u, pair.KnownPatch(to.u, to.s, to.modes[i].piece)))
       return {{sentences::kOverrun, model.scene.contacts[i].Name()}};
-  }
-  return {};
-}
-
-Causes TouchesTwice(const Model& model, const PathPoint& point) {
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    if (StateOf(point, i) == ContactState::kOpen) continue;
-    if (model.contacts[i]->TouchesTwice(point.u, point.s, point.modes[i].piece))
-      return {{sentences::kTouchesTwice, model.scene.contacts[i].Name()}};
-  }
-  return {};
-}
-
-Causes IsClamped(const Model& model, const PathPoint& point) {
-  for (std::size_t i = 0; i < model.laws.size(); ++i) {
-    if (model.laws[i].Elastic()) continue;
-    double given = 0.0;
-    for (std::size_t p = 0; p < model.laws[i].NumPorts(); ++p)
-      given = std::hypot(given, model.laws[i].In(point.modes[i]).ports[p].compliance *
-                                    point.forces[model.laws.FirstPort(i) + static_cast<Eigen::Index>(p)]);
-    if (given <= kMostGiven) continue;
-    const std::size_t pin = i - std::min(i, model.LawOfPin(0));
-    return {{sentences::kIsClamped, i < model.contacts.size() ? "contact " + model.scene.contacts[i].Name()
-                                                              : "pin " + PinName(model.scene.pins[pin], pin)}};
   }
   return {};
 }
@@ -261,32 +267,6 @@ Causes StandsAtEnd(const Model& model, const PathPoint& point) {
   if (at_end.empty()) return {};
   return {{at_end.size() == 1 ? sentences::kStandsAtEnd : sentences::kStandAtEnds,
            model.scene.contacts[at_end.front()].Name(), static_cast<long>(at_end.size()) - 1}};
-}
-
-Cause SlidesOffCause(const Model& model, const Limit& limit) {
-  const ContactCandidate& lost = model.scene.contacts[static_cast<std::size_t>(limit.law)];
-  return {lost.OnSurface() ? sentences::kSlidesOffSurface : sentences::kSlidesOffObstacle, lost.Name()};
-}
-
-Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, double tolerance) {
-  // Pins have no limits.
-  const auto i = static_cast<std::size_t>(limit.law);
-  if (i >= model.LawOfBar(0))
-    return {sentences::kBarRateSign, OneSidedBars(model.scene)[i - model.LawOfBar(0)].name, rate, tolerance};
-  return {SignOfRate(static_cast<ContactLimit>(limit.id)), model.scene.contacts[i].Name(), rate, tolerance};
-}
-
-Causes BehindBoundary(const Model& model, const PathPoint& point) {
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const ContactPair& pair = *model.contacts[i];
-    const bool ends = pair.Deformable() || (pair.HasPatches() && pair.Round() == 0.0);
-    if (!ends || StateOf(point, i) != ContactState::kOpen) continue;
-    const double gap = pair.Gap(point.u, point.s, kNearestPatch);
-    if (gap < -tolerances::kTouching)
-      return {{pair.Deformable() ? sentences::kBehindSurface : sentences::kBehindObstacle,
-               model.scene.contacts[i].Name(), -gap * model.scaling.length}};
-  }
-  return {};
 }
 
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {

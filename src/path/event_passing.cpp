@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "contact_path/branch/bifurcation_branches.h"
-#include "contact_path/path/diagnosis.h"
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -93,7 +93,9 @@ std::optional<End> EventPassing::PassContactEvent(const ArcStep& at, AcceptedPoi
   facts->contact_event = facts->leaves_curve = true;
   increment->event.number = Count();
   if (SlidesOff(at, increment->point)) {
-    return End{EndReason::kPathEnd, {SlidesOffCause(model_, *at.event.fails)}};
+    const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.fails->law)];
+    return End{EndReason::kPathEnd,
+               {{lost.OnSurface() ? sentences::kSlidesOffSurface : sentences::kSlidesOffObstacle, lost.Name()}}};
   }
   std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(before_.increments, number_), increment);
   facts->load_turns = !end && TurnsLoad(at);

@@ -89,16 +89,13 @@ std::string NearestOpenText(const Model& model, const PathPoint& point, std::siz
   const double length = model.scaling.length;
   std::string text = "the nearest candidate is open: " + candidate.Name() + ", gap " + RoundedText(gap * length);
   if (!candidate.OnSurface()) return text;
+  const std::vector<double> positions = model.InSceneUnits(point).positions;
   const auto place = [&](const std::string& name) {
-    const auto node = static_cast<int>(model.index.Node(name));
-    Eigen::Vector2d at = model.structure.StartPosition(node);
-    for (const int axis : {0, 1})
-      if (const int dof = model.structure.Dof(node, axis); dof >= 0) at[axis] = point.u[dof];
-    return at;
+    const std::size_t node = model.index.Node(name);
+    return Eigen::Vector2d(positions[2 * node], positions[2 * node + 1]);
   };
   const BoundarySurface& surface = model.scene.surfaces[model.index.Surface(candidate.surface)];
   const Eigen::Vector2d x = place(candidate.node);
-  const double radius = surface.radius / length;
   std::vector<Eigen::Vector2d> places;
   for (const std::string& name : surface.nodes) places.push_back(place(name));
   std::size_t nearest = 0;
@@ -110,11 +107,11 @@ std::string NearestOpenText(const Model& model, const PathPoint& point, std::siz
     const double share = std::clamp(edge.dot(away) / edge.squaredNorm(), 0.0, 1.0);
     from_edges = std::min(from_edges, (away - share * edge).norm());
   }
-  if (from_edges > radius + tolerances::kTouching) return text;
+  if (from_edges > surface.radius + tolerances::kTouching * length) return text;
   const std::array<int, 2> across = SymmetryAxes(surface, model.scene, [&](const std::string& name) -> const Node& {
     return model.scene.nodes[model.index.Node(name)];
   });
-  const double off = std::abs(BoundaryCurve(places, surface.closed, 0.0, across).Nearest(places[nearest]).gap) * length;
+  const double off = std::abs(BoundaryCurve(places, surface.closed, 0.0, across).Nearest(places[nearest]).gap);
   return text + " (the smooth curve of surface " + surface.name + " passes " + RoundedText(off) + " from its node " +
          surface.nodes[nearest] + ")";
 }

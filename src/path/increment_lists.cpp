@@ -23,37 +23,28 @@ void LongLists::Add(const LongLists& others) {
   pressures = pressures || others.pressures;
 }
 
-IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& index)
-    : nodes_(request.scene.nodes.size()),
-      rotations_(HasRotations(request.scene) ? nodes_ : 0),
-      contacts_(request.scene.contacts.size()),
-      supports_(SupportedNodes(request.scene).size()),
-      boundaries_(TouchedBoundaries(request.scene).size()),
-      bars_(OneSidedBars(request.scene).size()),
-      pins_(request.scene.pins.size()) {
+IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& index) {
+  const Scene& scene = request.scene;
+  const std::size_t nodes = scene.nodes.size(), contacts = scene.contacts.size();
+  always_ = {SupportedNodes(scene).size(), TouchedBoundaries(scene).size(), OneSidedBars(scene).size()};
+  state_ = {2 * nodes, HasRotations(scene) ? nodes : 0, contacts, scene.pins.size()};
   const LongLists lists = LongLists::Of(request, index);
-  sections_ = lists.sections ? index.Elements().NumSections() : 0;
-  stresses_ = lists.stresses ? index.Elements().NumElements() : 0;
-  pressures_ = lists.pressures ? contacts_ : 0;
-  widths_ = lists.pressures ? boundaries_ : 0;
+  long_ = {lists.sections ? index.Elements().NumSections() : 0, lists.stresses ? index.Elements().NumElements() : 0,
+           lists.pressures ? contacts : 0, lists.pressures ? always_[1] : 0};
 }
 
 bool IncrementLists::Fit(const Increment& increment) const {
-  const bool forces = increment.supports.size() == supports_ && increment.boundaries.size() == boundaries_ &&
-                      increment.bars.size() == bars_ && increment.pins.size() == pins_;
-  const InnerState& inner = increment.inner;
-  const bool no_inner =
-      inner.positions.empty() && inner.rotations.empty() && inner.contacts.empty() && inner.pins.empty();
-  if (increment.positions.empty())
-    return forces && no_inner && increment.rotations.empty() && increment.contacts.empty() &&
-           increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty() &&
-           increment.widths.empty();
-  const bool inner_fits = no_inner || (inner.positions.size() == 2 * nodes_ && inner.rotations.size() == rotations_ &&
-                                       inner.contacts.size() == contacts_ && inner.pins.size() == pins_);
-  return forces && inner_fits && increment.positions.size() == 2 * nodes_ && increment.rotations.size() == rotations_ &&
-         increment.contacts.size() == contacts_ && increment.sections.size() == sections_ &&
-         increment.stresses.size() == stresses_ && increment.pressures.size() == pressures_ &&
-         increment.widths.size() == widths_;
+  const auto lengths = [](const PathState& of) -> Lengths {
+    return {of.positions.size(), of.rotations.size(), of.contacts.size(), of.pins.size()};
+  };
+  const bool has_state = !increment.positions.empty();
+  const Lengths none = {}, no_state = {0, 0, 0, state_[3]}, inner = lengths(increment.inner);
+  const std::array<std::size_t, 3> always = {increment.supports.size(), increment.boundaries.size(),
+                                             increment.bars.size()};
+  const Lengths wanted = {increment.sections.size(), increment.stresses.size(), increment.pressures.size(),
+                          increment.widths.size()};
+  return always == always_ && lengths(increment) == (has_state ? state_ : no_state) &&
+         wanted == (has_state ? long_ : none) && (inner == none || (has_state && inner == state_));
 }
 
 }  // namespace contact_path

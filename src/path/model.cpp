@@ -6,7 +6,6 @@
 
 #include "contact_path/contact/scene_contacts.h"
 #include "contact_path/scene/expand.h"
-#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -42,14 +41,13 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       scaling(scaling_in),
       origin(OriginOf(scene_in, scaling_in.length)),
       scaled(ScaleScene(CountedFrom(origin, scene_in), scaling_in)),
-      structure(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length)),
-      contacts(BuildContacts(scaled, index, structure,
-                             CountedFrom(origin, configuration_in).Over(scaling.length).slip_origins)),
-      bars(BuildSlackBars(scaled, index, structure,
-                          CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
-      pins(BuildPins(scaled, index, structure, CountedFrom(origin, configuration_in).Over(scaling.length).reference)),
+      scaled_configuration(CountedFrom(origin, configuration_in).Over(scaling.length)),
+      structure(scaled, index, scaled_configuration),
+      contacts(BuildContacts(scaled, index, structure, scaled_configuration.slip_origins)),
+      bars(BuildSlackBars(scaled, index, structure, scaled_configuration.reference)),
+      pins(BuildPins(scaled, index, structure, scaled_configuration.reference)),
       laws(AllLaws(contacts, bars, pins)),
-      reactions(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length), scaling),
+      reactions(scaled, index, scaled_configuration, scaling),
       check(scene_in, configuration_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {
@@ -184,8 +182,7 @@ Reactions Model::ReactionsAt(const PathPoint& point) const { return reactions.At
 
 const ElementResponse& Model::Elements() const {
   if (elements_ == nullptr)
-    elements_ = std::make_unique<const ElementResponse>(
-        scaled, index, CountedFrom(origin, configuration).Over(scaling.length), structure.Dofs(), scaling);
+    elements_ = std::make_unique<const ElementResponse>(scaled, index, scaled_configuration, structure.Dofs(), scaling);
   return *elements_;
 }
 

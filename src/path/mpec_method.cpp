@@ -1,6 +1,7 @@
 #include "contact_path/path/mpec_method.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -8,7 +9,7 @@
 #include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/equations/nearest_point.h"
 #include "contact_path/path/model.h"
-#include "contact_path/path/scene_end.h"
+#include "contact_path/path/watched_quantities.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -36,6 +37,8 @@ constexpr double kShortPath = 20.0;          // of the corner tolerance
 constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
+Eigen::VectorXd Direction(const PathPoint& from, const PathPoint& to) { return Chord(from, to).normalized(); }
+
 // Whether this law is about to change its state, so that the path may bend here by any angle.
 bool IsNearlyActive(const Laws& laws, const PathPoint& point, std::size_t i) {
   const Law& law = laws[i];
@@ -52,6 +55,12 @@ bool IsNearlyActive(const Laws& laws, const PathPoint& point, std::size_t i) {
 bool SomeNearlyActive(const Laws& laws, const PathPoint& point) {
   for (std::size_t i = 0; i < laws.size(); ++i)
     if (IsNearlyActive(laws, point, i)) return true;
+  return false;
+}
+
+bool SomeSlides(const Laws& laws, const Modes& modes) {
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    if (laws[i].In(modes[i]).slides) return true;
   return false;
 }
 
@@ -98,18 +107,10 @@ bool StatesAgree(const ContactPairs& contacts, const Laws& laws, const PathPoint
 MpecOptions MpecOptions::For(const TraceOptions& options, double growth) {
   MpecOptions result;
   result.regularisation.predicted = true;
-  switch (options.accuracy) {
-    case Accuracy::kFast:
-      result.step = 0.05;
-      result.corner_tolerance = 2e-3;
-      break;
-    case Accuracy::kBalanced: break;
-    case Accuracy::kAccurate:
-      result.step = 0.005;
-      result.corner_tolerance = 1e-4;
-      result.regularisation.minimum = 1e-10;
-      break;
-  }
+  const auto accuracy = static_cast<std::size_t>(options.accuracy);  // fast, balanced, accurate
+  result.step = std::array{0.05, 0.02, 0.005}[accuracy];
+  result.corner_tolerance = std::array{2e-3, 5e-4, 1e-4}[accuracy];
+  if (options.accuracy == Accuracy::kAccurate) result.regularisation.minimum = 1e-10;
   result.step = options.step > 0.0 ? options.step : result.step * growth;
   // Shorter increments are to show more of the path.
   result.corner_tolerance = std::min(result.corner_tolerance, kCornerShare * result.step);
@@ -129,10 +130,6 @@ MpecMethod::MpecMethod(const Model& model, const MpecOptions& options, std::func
   direction_[model.structure.NumDofs()] = options.direction;
 }
 
-Eigen::VectorXd MpecMethod::Direction(const PathPoint& from, const PathPoint& to) const {
-  return Chord(from, to).normalized();
-}
-
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length,
                                   double dissipation, bool predicted) {
   RegularisationSchedule schedule = options_.regularisation;
@@ -146,22 +143,6 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
   return Try(from, direction, length, dissipation, false);
 }
 
-bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
-  return started_ && !bent_ && SameStates(to.modes, from.modes) &&
-         Direction(from, to).dot(direction) < kSmallestCosine && !SomeNearlyActive(model_.laws, from);
-}
-
-// A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
-// and the solver may find either. The second one dissipates nothing.
-bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
-  const auto slides = [this](const PathPoint& point) {
-    for (std::size_t i = 0; i < point.modes.size(); ++i)
-      if (model_.laws[i].In(point.modes[i]).slides) return true;
-    return false;
-  };
-  return started_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 && slides(from) && !slides(to);
-}
-
 void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const {
   Trial& trial = *result;
   if (trial.increment.status != SolveStatus::kSolved) {
@@ -172,6 +153,13 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   trial.residuals = model_.Check(from, to);
   const double tolerance = trial.increment.exact ? tolerances::kAccepted : tolerances::kAcceptedRegularised;
   const double moved = Distance(from, to);
+  const double turn = started_ ? Direction(from, to).dot(direction) : 1.0;
+  const bool turns_back =
+      turn < kSmallestCosine && !bent_ && SameStates(to.modes, from.modes) && !SomeNearlyActive(model_.laws, from);
+  // A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
+  // and the solver may find either. The second one dissipates nothing.
+  const bool back_at_rest = started_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 &&
+                            SomeSlides(model_.laws, from.modes) && !SomeSlides(model_.laws, to.modes);
   if (!(trial.residuals.Largest() <= tolerance))
     trial.verdict = sentences::kResidual;
   else if (!trial.increment.exact && !StatesAgree(model_.contacts, model_.laws, from, to))
@@ -182,9 +170,9 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
     trial.verdict = sentences::kNoProgress;
   else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
     trial.verdict = sentences::kWrongDirection;
-  else if (TurnsBack(from, to, direction) || (started_ && Direction(from, to).dot(onward_) < kWayBack))
+  else if (turns_back || (started_ && Direction(from, to).dot(onward_) < kWayBack))
     trial.verdict = sentences::kTurnedBack;
-  else if (GoesBackAtRest(from, to))
+  else if (back_at_rest)
     trial.verdict = sentences::kBackAtRest;
   else
     trial.verdict = sentences::kAccepted;
@@ -245,29 +233,30 @@ bool MpecMethod::MayMissTarget(const PathPoint& from, const PathPoint& to) const
 }
 
 bool MpecMethod::EndAtTarget(const PathPoint& from, double target, Trial* trial) const {
-  // The contacts may change their states on either side of the target.
   const PathPoint to = trial->increment.point;
-  return EndAtTarget(from, to, target, trial) || EndAtTarget(from, from, target, trial);
-}
-
-bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, double target, Trial* trial) const {
-  const PathPoint& to = trial->increment.point;
-  FixedModeSystem system(model_.structure, model_.laws);
-  system.SetModes(modes.modes, model_.laws.ReferencesAt(from));
-  system.FixLoadFactor(target);
   const double share = (target - from.s) / (to.s - from.s);
-  const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
-  const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
-  if (!nearest.converged) return false;
-  for (const Limit& limit : system.OfModes().All())
-    if (system.Value(limit, nearest.x) < -tolerances::kResidual * system.UnitOf(limit)) return false;
-  PathPoint point = system.Unpack(nearest.x);
-  if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
-  trial->residuals = model_.Check(from, point);
-  if (!(trial->residuals.Largest() <= tolerances::kAccepted)) return false;
-  trial->increment.point = std::move(point);
-  trial->increment.exact = true;
-  return true;
+  // The contacts may change their states on either side of the target.
+  for (const Modes& modes : {to.modes, from.modes}) {
+    FixedModeSystem system(model_.structure, model_.laws);
+    system.SetModes(modes, model_.laws.ReferencesAt(from));
+    system.FixLoadFactor(target);
+    const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
+    const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
+    if (!nearest.converged) continue;
+    const std::vector<Limit> limits = system.OfModes().All();
+    if (std::any_of(limits.begin(), limits.end(), [&](const Limit& limit) {
+          return system.Value(limit, nearest.x) < -tolerances::kResidual * system.UnitOf(limit);
+        }))
+      continue;
+    PathPoint point = system.Unpack(nearest.x);
+    if (Distance(from, point) > kFarthestTarget * Distance(from, to)) continue;
+    trial->residuals = model_.Check(from, point);
+    if (!(trial->residuals.Largest() <= tolerances::kAccepted)) continue;
+    trial->increment.point = std::move(point);
+    trial->increment.exact = true;
+    return true;
+  }
+  return false;
 }
 
 std::optional<int> MpecMethod::EndAtReturn(const PathPoint& from, Trial* trial) const {
@@ -370,7 +359,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
     increment.solve.next_step = step_length_;
     increment.solve.gamma2_factor = gamma2_factor_;
     increment.point = trial.increment.point;
-    advance.increments.push_back(std::move(increment));
+    advance.increment = std::move(increment);
     if (returned) advance.end = ClosedPath(*returned);
     return advance;
   }

@@ -103,14 +103,15 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   for (int i = 0; i < max_increments; ++i) {
     if (cancelled && cancelled()) return end(EndReason::kCancelled, {{sentences::kCancelled}});
     Advance advance = method->Next(preload.point);
-    for (AcceptedPoint& increment : advance.increments) {
-      preload.point = std::move(increment.point);
+    if (advance.increment) {
+      preload.point = std::move(advance.increment->point);
+      const IncrementKind kind = advance.increment->kind;
       if (IsAtTarget(preload.point.s, target)) {
         preload.point.s = 0.0;
         preload.done = true;
         return preload;
       }
-      if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit ||
+      if (kind == IncrementKind::kSmoothLimit || kind == IncrementKind::kCornerLimit ||
           (advance.end && advance.end->reason == EndReason::kAtLimit))
         return end(EndReason::kPathEnd, {{sentences::kLimitPointOfLoads, {}, preload.point.s / target}});
     }

@@ -14,10 +14,9 @@
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/earlier_trace.h"
 #include "contact_path/path/largest_reaction.h"
-#include "contact_path/path/machine_setting.h"
+#include "contact_path/path/machine_limit.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
-#include "contact_path/path/scene_end.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/path/trace_end.h"
@@ -246,14 +245,10 @@ class Tracer {
       if (HasAllIncrements()) return EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
       const Clock::time_point start = Clock::now();
       Advance advance = method->Next(point_);
-      const auto increments = static_cast<double>(std::max<std::size_t>(1, advance.increments.size()));
-      const double time = Seconds(Clock::now() - start) / increments;
-      for (AcceptedPoint& increment : advance.increments) {
-        if (const std::optional<bool> goes_on = Take(&increment, time)) return *goes_on;
-        if (HasAllIncrements()) break;
-      }
-      if (HasAllIncrements()) continue;
-      if (advance.end) return EndWith(*std::move(advance.end));
+      const double time = Seconds(Clock::now() - start);
+      if (advance.increment)
+        if (const std::optional<bool> goes_on = Take(&*advance.increment, time)) return *goes_on;
+      if (advance.end && !HasAllIncrements()) return EndWith(*std::move(advance.end));
     }
   }
 

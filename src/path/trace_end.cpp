@@ -16,7 +16,6 @@
 #include "contact_path/path/free_motion.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
-#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/surface.h"
 #include "contact_path/scene/text.h"

@@ -49,8 +49,8 @@ TEST_F(SlidingBarMethod, GivesOneExactIncrementAtATime) {
   for (int i = 0; i < 5; ++i) {
     const Advance advance = method.Next(point);
     ASSERT_FALSE(advance.end) << EndText(advance.end->causes);
-    ASSERT_EQ(advance.increments.size(), 1u);
-    const AcceptedPoint& increment = advance.increments[0];
+    ASSERT_TRUE(advance.increment);
+    const AcceptedPoint& increment = *advance.increment;
     EXPECT_LE(increment.residuals.equilibrium, kRounding);
     EXPECT_LE(increment.residuals.Contact(), kRounding);
     EXPECT_TRUE(increment.solve.exact);
@@ -72,9 +72,9 @@ TEST_F(SlidingBarMethod, EndsAtTheTarget) {
   int increments = 0;
   while (point.s < options.targets[0]) {
     const Advance advance = method.Next(point);
-    ASSERT_EQ(advance.increments.size(), 1u);
-    EXPECT_LE(advance.increments[0].residuals.Largest(), kRounding);
-    point = advance.increments[0].point;
+    ASSERT_TRUE(advance.increment);
+    EXPECT_LE(advance.increment->residuals.Largest(), kRounding);
+    point = advance.increment->point;
     ++increments;
   }
   EXPECT_NEAR(point.s, options.targets[0], kRounding);
@@ -87,12 +87,12 @@ TEST_F(SlidingBarMethod, CancelledGivesNoIncrement) {
   const Advance first = method.Next(model_.InitialPoint());
   ASSERT_FALSE(first.end);
   cancel = true;
-  const Advance second = method.Next(first.increments[0].point);
+  const Advance second = method.Next(first.increment->point);
   ASSERT_TRUE(second.end);
-  EXPECT_TRUE(second.increments.empty());
+  EXPECT_FALSE(second.increment);
   EXPECT_EQ(second.end->reason, EndReason::kCancelled);
   cancel = false;
-  EXPECT_FALSE(method.Next(first.increments[0].point).end);
+  EXPECT_FALSE(method.Next(first.increment->point).end);
 }
 
 // A block of weight 1 with mu = 0.3, pulled against a spring of stiffness 1: load up to 1, down to 0, up to 1.
@@ -120,7 +120,8 @@ class StickSlipCycle : public testing::Test {
       const Advance advance = method.Next(*point);
       EXPECT_FALSE(advance.end) << EndText(advance.end->causes);
       if (advance.end) return dissipation;
-      for (const AcceptedPoint& increment : advance.increments) {
+      if (advance.increment) {
+        const AcceptedPoint& increment = *advance.increment;
         const double s = increment.point.s;
         const bool sticks = direction * (s - stick_until) < 0.0;
         EXPECT_NEAR(increment.point.u[0], sticks ? held : s + offset, 1e-3) << s;  // a corner is cut by less than this

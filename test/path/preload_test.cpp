@@ -162,10 +162,10 @@ TEST(Preload, EndsAtALimitPoint) {
   const Model model(scene, CharacteristicScales(scene));
   for (const IncrementKind kind : {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit}) {
     Advance advance;
-    advance.increments.resize(1);
-    advance.increments[0].point = model.InitialPoint();
-    advance.increments[0].point.s = 0.25 * model.structure.ConstantLoad().norm();
-    advance.increments[0].kind = kind;
+    advance.increment.emplace();
+    advance.increment->point = model.InitialPoint();
+    advance.increment->point.s = 0.25 * model.structure.ConstantLoad().norm();
+    advance.increment->kind = kind;
     const Preload preload =
         TracePreload(model, 100, [&](const Model&, double) { return std::make_unique<FakeMethod>(true, advance); });
     EXPECT_FALSE(preload.done);

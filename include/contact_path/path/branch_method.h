@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/mode_arc.h"

@@ -2,7 +2,6 @@
 #ifndef CONTACT_PATH_PATH_BRANCH_OPTIONS_H_
 #define CONTACT_PATH_PATH_BRANCH_OPTIONS_H_
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 #include <string>

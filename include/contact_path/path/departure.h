@@ -13,6 +13,7 @@
 #include "contact_path/branch/path_parameter.h"
 #include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/law/path_point.h"
+#include "contact_path/path/branch_options.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/largest_reaction.h"
@@ -20,13 +21,6 @@
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
-
-struct DepartureOptions {
-  PathParameter parameter;
-  bool forward = false;                              // BranchRule::kForward
-  bool ends_at_limit = false;                        // a branch on which the parameter goes back is not followed
-  LargestReactionSoFar* largest_reaction = nullptr;  // of the trace that the path is a part of; null: of this path
-};
 
 // Adds what an event has on record of these branches.
 void RecordBranches(const Model& model, const std::vector<Branch>& branches, EventRecord* record);
@@ -37,8 +31,9 @@ std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const B
 
 class Departure {
  public:
-  // model must outlive the departure. cancelled may be empty.
-  Departure(const Model& model, const DepartureOptions& options, std::function<bool()> cancelled);
+  // model and options must outlive the departure. cancelled may be empty.
+  Departure(const Model& model, const BranchOptions& options, const PathParameter& parameter,
+            std::function<bool()> cancelled);
 
   // Takes the reactions of a point of the path into account: the tolerances of active sets follow the largest.
   void NoteReactions(const PathPoint& point);
@@ -66,10 +61,10 @@ class Departure {
 
  private:
   bool SetOut(const PathPoint& point, const Branch& branch, ModeArc* arc, CurvePoint* current) const;
-  End UnknownRate(const Limit& limit, const FixedModeSystem& system, const CurvePoint& at) const;
 
   const Model& model_;
-  DepartureOptions options_;
+  const BranchOptions& options_;
+  const PathParameter parameter_;
   std::function<bool()> cancelled_;
   std::optional<PathPoint> begin_;
   std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before

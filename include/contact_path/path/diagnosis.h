@@ -39,33 +39,17 @@ Causes CurveTooSharp(const Model& model, const PathPoint& point);
 // there. Else empty. point: where to look, scaled.
 Causes HiddenSlip(const Model& model, const PathPoint& point);
 
-// Why a point breaks the total law of friction on a closed obstacle: check/ measures slip along the shorter way round,
-// so that slip changes its sign beyond half a round. Empty where this cannot be the reason.
-Causes BeyondHalfRound(const Model& model, const Residuals& residuals);
+// Why the residuals of a point, with which a step ends, are too large: a curve that is too sharp, holonomic friction
+// beyond half a round, a node behind its boundary, a circle that touches twice, a body or pin that is clamped.
+Causes WhyRefused(const Model& model, const PathPoint& point, const Residuals& residuals);
 
 // Names a contact with a deformable surface of which another part has come over the node while it touches, from one
 // point of a path to the next; else empty.
 Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to);
 
-// Names a circle that has come upon a second part of the obstacle on which it rolls; else empty. point: where to look,
-// scaled.
-Causes TouchesTwice(const Model& model, const PathPoint& point);
-
-// Names a contact of a rigid body that gives way by more than stands for the rigid; else empty.
-Causes IsClamped(const Model& model, const PathPoint& point);
-
 // Names a contact that stands at an end of its surface, over which no branch slides, and counts the others that do;
 // else empty.
 Causes StandsAtEnd(const Model& model, const PathPoint& point);
-
-// Why a path ends where a law that bears comes to the end of its pieces.
-Cause SlidesOffCause(const Model& model, const Limit& limit);
-// Of a limit whose rate has no sign: it is no more than `tolerance`. Both in scene units.
-Cause UnknownRateCause(const Model& model, const Limit& limit, double rate, double tolerance);
-
-// Names an open contact whose node has come past an end of its boundary and is behind the boundary; else empty. point:
-// where to look, scaled.
-Causes BehindBoundary(const Model& model, const PathPoint& point);
 
 // Where a contact pulls at its node, by more than rounding and by more than a share of the largest reaction so far: it
 // should have opened, and did not. The sign of its reaction is not known, where the pull is below what a step sees of a

@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_PATH_INCREMENT_LISTS_H_
 #define CONTACT_PATH_PATH_INCREMENT_LISTS_H_
 
+#include <array>
 #include <cstddef>
 
 #include "contact_path/path/increment.h"
@@ -34,8 +35,10 @@ class IncrementLists {
   bool Fit(const Increment& increment) const;
 
  private:
-  std::size_t nodes_, rotations_, contacts_, supports_, boundaries_, bars_, pins_, sections_, stresses_, pressures_,
-      widths_;
+  using Lengths = std::array<std::size_t, 4>;
+  std::array<std::size_t, 3> always_;  // supports, boundaries, bars
+  Lengths state_;                      // positions, rotations, contacts, and pins, which are always there
+  Lengths long_;                       // sections, stresses, pressures, widths
 };
 
 }  // namespace contact_path

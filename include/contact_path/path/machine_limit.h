@@ -1,4 +1,5 @@
-// What a path does where the machine that loads the structure can go no further on a stable path.
+// The machine of a stage with its setting, and what a path does where the machine that loads the structure can go no
+// further on a stable path.
 #ifndef CONTACT_PATH_PATH_MACHINE_LIMIT_H_
 #define CONTACT_PATH_PATH_MACHINE_LIMIT_H_
 
@@ -11,12 +12,33 @@
 #include "contact_path/branch/step.h"
 #include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/path/branch_options.h"
-#include "contact_path/path/machine_setting.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/stability_monitor.h"
+#include "contact_path/stability/machine.h"
 
 namespace contact_path {
+
+// X = f . (u - u_0) / |f| + s |f| / K, the setting of the machine of TraceOptions in a stage that begins at u_0.
+class MachineSetting {
+ public:
+  // stiffness: K of TraceOptions. Where it is 0, or the load factor scales no loads, there is no machine: the load
+  // factor is what goes on, and the setting stays 0.
+  MachineSetting(const Model& model, double stiffness);
+
+  const Machine& machine() const { return machine_; }  // scaled
+  // sense: +-1, in which the path is wanted to go.
+  PathParameter Parameter(double sense) const;
+  // From where it is `value` [length; rad where moments alone load] at the point, (u, s) scaled.
+  void Begin(const PathPoint& point, double value) { origin_ += At(point.u, point.s) - value; }
+  double At(const Eigen::VectorXd& u, double s) const;
+
+ private:
+  Machine machine_;
+  Eigen::VectorXd row_;  // (du, ds); empty: no machine
+  double unit_ = 1.0;
+  double origin_ = 0.0;
+};
 
 // The machine of a path, the verdicts under it, and TraceOptions::at_limit: a path is followed through such a limit,
 // stops at it, or jumps from it.

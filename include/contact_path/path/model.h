@@ -80,6 +80,7 @@ struct Model {
   const Scaling scaling;
   const Origin origin;  // of the coordinates of all scaled quantities
   const Scene scaled;
+  const Configuration scaled_configuration;
   const Structure structure;                                // of the scaled scene
   const ContactPairs contacts;                              // of the scaled scene
   const std::vector<std::unique_ptr<const SlackBar>> bars;  // that bear in one sense alone, of the scaled scene

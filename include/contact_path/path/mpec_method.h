@@ -50,14 +50,9 @@ class MpecMethod : public PathMethod {
     IncrementTrial increment;
     Residuals residuals;
   };
-  // Whether the increment turns away from the direction (a unit vector) though no contact changes its state.
-  bool TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const;
-  // Whether the load goes back on the increment, and no contact slides there, though one did before.
-  bool GoesBackAtRest(const PathPoint& from, const PathPoint& to) const;
   // Sets residuals and verdict of a trial that was solved for.
   void Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const;
 
-  Eigen::VectorXd Direction(const PathPoint& from, const PathPoint& to) const;
   // One increment, judged by itself. dissipation: share of that term in the minimiser; gamma_1 of eq. (4) is what is
   // left of 1, over this share. predicted: where the solution from the predicted point is refused, another one is
   // looked for.
@@ -73,7 +68,6 @@ class MpecMethod : public PathMethod {
   // Replaces the point of a trial beyond the target by the exact point at the target, with the contact modes of the
   // trial or of `from`. False: there is no such point.
   bool EndAtTarget(const PathPoint& from, double target, Trial* trial) const;
-  bool EndAtTarget(const PathPoint& from, const PathPoint& modes, double target, Trial* trial) const;
   // Where the path comes back to an earlier increment on the increment: its number, and the trial ends there.
   std::optional<int> EndAtReturn(const PathPoint& from, Trial* trial) const;
   bool ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length, const Trial& whole);

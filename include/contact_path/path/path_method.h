@@ -1,4 +1,4 @@
-// What the tracer asks of a method: the next accepted increments of the path.
+// What the tracer asks of a method: the next accepted increment of the path.
 #ifndef CONTACT_PATH_PATH_PATH_METHOD_H_
 #define CONTACT_PATH_PATH_PATH_METHOD_H_
 
@@ -37,8 +37,8 @@ inline bool IsAtTarget(double load_factor, double target) {
 }
 
 struct Advance {
-  std::vector<AcceptedPoint> increments;  // in order; may hold increments also where the path ended
-  std::optional<End> end;                 // nothing: the path goes on
+  std::optional<AcceptedPoint> increment;  // may be there also where the path ended, and need not where it goes on
+  std::optional<End> end;                  // nothing: the path goes on
 };
 
 inline Advance Ended(End end) { return {{}, std::move(end)}; }
@@ -60,7 +60,7 @@ class PathMethod {
   // Goes on in place of Start(). False: that is not possible here.
   virtual bool Resume(const ResumePoint& at) = 0;
 
-  // The next increments after `from`, which is the last accepted point: the initial point, or the last increment that
+  // The next increment after `from`, which is the last accepted point: the initial point, or the last increment that
   // this method gave.
   virtual Advance Next(const PathPoint& from) = 0;
   // Events passed so far, those before this path included; 0 for a method that does not number them.

@@ -29,8 +29,7 @@ inline constexpr Sentence kNoJump =
     "the machine can go no further, and the jump from increment <value> comes back to where it began";
 inline constexpr Sentence kMayGoOn =
     "no branch was found with which the load goes on, and there are too many combinations of contact states to try "
-    "them "
-    "all: see branch_rule";
+    "them all: see branch_rule";
 
 // Where branches part, and where none leads on.
 inline constexpr Sentence kNoBranch =
@@ -149,14 +148,12 @@ inline constexpr Sentence kIsClamped =
     "where forces are a hundred times those of the scene: loads are to be written at the size that they reach";
 inline constexpr Sentence kTouchesTwice =
     "contact <name>: the circle comes upon another part of the obstacle while it touches, and what it touches twice "
-    "has "
-    "to be two obstacles";
+    "has to be two obstacles";
 inline constexpr Sentence kBehindSurface =
     "contact <name>: the node has come past an end of the surface to <value> behind it";
 inline constexpr Sentence kBehindObstacle =
     "contact <name>: the node has come past an end of the obstacle to <value> behind it; nodes may be on the left of "
-    "the "
-    "curve";
+    "the curve";
 inline constexpr Sentence kPulls = "contact <name> pulls with <value>, and the error of its reaction is <other>";
 
 // Remarks.
