@@ -50,10 +50,11 @@ void RegularIncrements(benchmark::State& state, TraceRequest request, double flo
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     PathPoint point = model.InitialPoint();
-    StartRecord found;
-    if (method.Start(point, &found)) throw std::runtime_error("the path cannot start");
+    AcceptedPoint first;
+    first.point = point;
+    if (method.Start(point, &first)) throw std::runtime_error("the path cannot start");
     Recorder recorder(Method::kBranch, LongLists(), false, nullptr);
-    recorder.Start(model, 0, point, Residuals(), found, 0.0);
+    recorder.Start(model, 0, first, 0.0);
     double seconds = 0.0;
     int regular = 0, factorised = 0;
     while (regular < kIncrements) {

@@ -54,7 +54,7 @@ void AlongThePath(const TraceRequest& given, bool events, benchmark::State& stat
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     PathPoint point = model.InitialPoint();
-    StartRecord found;
+    IncrementFindings found;
     if (method.Start(point, &found)) throw std::runtime_error("the path cannot start");
     double seconds = 0.0, factorisations = 0.0;
     // The first increment finds the ordering.
@@ -114,7 +114,7 @@ void EventOfContacts(benchmark::State& state) {
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     const PathPoint point = model.InitialPoint();
-    StartRecord found;
+    IncrementFindings found;
     const Clock::time_point start = Clock::now();
     if (method.Start(point, &found)) throw std::runtime_error("the path cannot start");
     const double time = Seconds(start);

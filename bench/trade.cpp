@@ -98,7 +98,7 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
     path.increments.push_back(std::move(increment));
   };
   append(start, nullptr);
-  StartRecord found;
+  IncrementFindings found;
   PathPoint point = start;
   bool ended = method->Start(point, &found).has_value();
   while (!ended) {
@@ -341,7 +341,7 @@ void MeasureModels() {
       const std::unique_ptr<PathMethod> tracer =
           MakeMethod(model, OptionsOf(request, {method, "balanced", 0.0, 0.0}), {method, "balanced", 0.0, 0.0});
       PathPoint point = model.InitialPoint();
-      StartRecord found;
+      IncrementFindings found;
       if (tracer->Start(point, &found)) std::fprintf(stderr, "%s: cannot start\n", name);
       const Clock::time_point begin = Clock::now();
       SolveRecord solve;

@@ -92,7 +92,7 @@ int BranchMethod::StiffnessSign(const CurvePoint& point) const {
   return (rate > 0.0 ? 1 : -1) * point.determinant_sign * (reactions % 2 == 0 ? 1 : -1);
 }
 
-std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found) {
+std::optional<End> BranchMethod::Start(const PathPoint& from, IncrementFindings* found) {
   departure_.NoteReactions(from);
   if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
   std::optional<End> end = SetOut(from, found);
@@ -100,14 +100,14 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
   return end;
 }
 
-std::optional<End> BranchMethod::SetOut(const PathPoint& from, StartRecord* found) {
+std::optional<End> BranchMethod::SetOut(const PathPoint& from, IncrementFindings* found) {
   at_start_ = true;
   events_in_place_ = 0;
   stored_.reset();
   step_length_ = options_.step;
   departure_.Restart();
   std::optional<End> end = departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_,
-                                            &current_, &found->branches);
+                                            &current_, &found->event);
   if (limit_.monitor() != nullptr) {
     PathPoint leaves = from;
     if (!end) leaves.modes = arc_.system().modes();
@@ -130,12 +130,12 @@ Advance BranchMethod::TakeJump(const PathPoint& from) {
   const bool lands = jump.kind == Kind::kLands;
   PathPoint point = lands ? jump.landing.point : from;
   if (!lands) TakeStates(arc_.system().modes(), &point);
-  StartRecord found;
+  IncrementFindings found;
   Advance advance;
   advance.end = SetOut(point, &found);
   if (!lands && advance.end) return Ended(*std::move(jump.end));
   AcceptedPoint increment = lands ? std::move(jump.landing) : IncrementAt(std::move(point), from);
-  increment.event = std::move(found.branches);
+  increment.event = std::move(found.event);
   increment.stability = std::move(found.stability);
   if (lands) {
     limit_.NoteLanding(from, increment.point, departure_.ToleranceAt(increment.point), &advance.end);

@@ -13,8 +13,6 @@
 namespace contact_path {
 namespace {
 
-using Place = CsvColumn::Place;
-
 double Cell(double number) { return number; }
 std::string_view Cell(ContactState state) { return ToString(state); }
 
@@ -29,7 +27,7 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
   const auto add = [this](std::string name, auto value) {
     columns_.push_back({std::move(name), [value](const Increment& of, std::ostream& line) { line << value(of); }});
   };
-  const auto add_place = [&](Place place) {
+  const auto add_place = [&](CsvColumn::Place place) {
     for (const CsvColumn& column : kCsvColumns) {
       if (column.place != place) continue;
       if (column.number != nullptr) add(std::string(column.name), column.number);
@@ -46,7 +44,7 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
     });
   };
 
-  add_place(Place::kFirst);
+  add_place(CsvColumn::kFirst);
   const std::vector<bool> turn = NodesThatTurn(scene);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const std::string& name = scene.nodes[i].name;
@@ -59,8 +57,8 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
   const std::vector<OneSidedBar> bars = OneSidedBars(scene);
   for (std::size_t k = 0; k < bars.size(); ++k)
     add("state_" + bars[k].name, [k](const Increment& of) { return ToString(of.bars[k]); });
-  add_place(Place::kBehindContacts);
-  if (!expanded.Get().program.empty()) add_place(Place::kOfProgram);
+  add_place(CsvColumn::kBehindContacts);
+  if (!expanded.Get().program.empty()) add_place(CsvColumn::kOfProgram);
   const SceneIndex index(scene);
   const std::vector<SupportedNode> supports = SupportedNodes(scene);
   for (std::size_t i = 0; i < supports.size(); ++i)
@@ -75,10 +73,10 @@ CsvWriter::CsvWriter(const TraceRequest& given) {
     add_fields(
         &Increment::pins, i, PinName(scene.pins[i], i),
         [has_spring = scene.pins[i].stiffness > 0.0](std::string_view field) { return field != "rm" || has_spring; });
-  if (options.stability == DefaultTrue::kTrue) add_place(Place::kOfStability);
-  if (options.machine_stiffness > 0.0) add_place(Place::kOfMachine);
-  if (options.at_limit == AtLimit::kJump) add_place(Place::kOfJumps);
-  if (options.at_limit == AtLimit::kJump && options.landing_checks) add_place(Place::kOfChecks);
+  if (options.stability == DefaultTrue::kTrue) add_place(CsvColumn::kOfStability);
+  if (options.machine_stiffness > 0.0) add_place(CsvColumn::kOfMachine);
+  if (options.at_limit == AtLimit::kJump) add_place(CsvColumn::kOfJumps);
+  if (options.at_limit == AtLimit::kJump && options.landing_checks) add_place(CsvColumn::kOfChecks);
   const ElementNames& elements = index.Elements();
   for (std::size_t i = 0; options.Records("sections") && i < elements.NumSections(); ++i)
     add_fields(&Increment::sections, i, elements.SectionName(i),

@@ -98,7 +98,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
     Append(causes, &preload.end.causes);
     return preload;
   };
-  StartRecord found;
+  IncrementFindings found;
   if (const std::optional<End> none = method->Start(preload.point, &found)) return end(none->reason, none->causes);
   for (int i = 0; i < max_increments; ++i) {
     if (cancelled && cancelled()) return end(EndReason::kCancelled, {{sentences::kCancelled}});

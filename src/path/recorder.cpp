@@ -83,19 +83,13 @@ void FillLists(const Model& model, const PathPoint& point, const LongLists& list
   }
 }
 
-void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
-                     const StartRecord& found, double time) {
+void Recorder::Start(const Model& model, int stage, AcceptedPoint start, double time) {
   increment_.stage = stage;
   first_of_stage_ = increments_;
-  AcceptedPoint accepted;
-  accepted.kind = IncrementKind::kStart;
-  accepted.residuals = residuals;
-  accepted.solve.method = method_;
-  accepted.solve.exact = true;
-  accepted.event = found.branches;
-  accepted.stability = found.stability;
-  accepted.point = point;
-  Fill(model, accepted, time);
+  start.kind = IncrementKind::kStart;
+  start.solve.method = method_;
+  start.solve.exact = true;
+  Fill(model, start, time);
   Give(increment_.load_factor);
 }
 

@@ -13,7 +13,6 @@
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/earlier_trace.h"
-#include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/machine_limit.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
@@ -168,9 +167,11 @@ class Tracer {
     if (Causes soft = ContactTooSoft(*model_, point_, softest); !soft.empty())
       return EndWith({EndReason::kNotDetermined, std::move(soft)});
     const std::unique_ptr<PathMethod> method = MakeMethod(recorder_.increments());
-    StartRecord found;
-    std::optional<End> not_started = method->Start(point_, &found);
-    recorder_.Start(*model_, request_.program.empty() ? 0 : static_cast<int>(stage_) + 1, point_, residuals, found,
+    AcceptedPoint first;
+    first.point = point_;
+    first.residuals = residuals;
+    std::optional<End> not_started = method->Start(point_, &first);
+    recorder_.Start(*model_, request_.program.empty() ? 0 : static_cast<int>(stage_) + 1, std::move(first),
                     Seconds(Clock::now() - start));
     stop_.Note(recorder_.increment());
     return not_started ? EndWith(*std::move(not_started)) : FollowStage(method.get());

@@ -1,4 +1,4 @@
-#include "contact_path/path/largest_reaction.h"
+#include "contact_path/path/return_detector.h"
 
 #include <gtest/gtest.h>
 

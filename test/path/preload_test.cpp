@@ -128,7 +128,7 @@ TEST(Preload, SaysWhenThereAreTooManyIncrements) {
 class FakeMethod : public PathMethod {
  public:
   FakeMethod(bool starts, Advance advance) : starts_(starts), advance_(std::move(advance)) {}
-  std::optional<End> Start(const PathPoint&, StartRecord*) override {
+  std::optional<End> Start(const PathPoint&, IncrementFindings*) override {
     if (starts_) return std::nullopt;
     return End{EndReason::kPathEnd, {{"because"}}};
   }

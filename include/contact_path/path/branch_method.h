@@ -25,7 +25,7 @@ class BranchMethod : public PathMethod {
   // model must outlive the method. cancelled may be empty.
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
-  std::optional<End> Start(const PathPoint& from, StartRecord* found) override;
+  std::optional<End> Start(const PathPoint& from, IncrementFindings* found) override;
   bool Resume(const ResumePoint& at) override;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
@@ -50,7 +50,7 @@ class BranchMethod : public PathMethod {
   // of the step, made anew then.
   bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
   // Sets out from an equilibrium with all contact states that are open to it.
-  std::optional<End> SetOut(const PathPoint& from, StartRecord* found);
+  std::optional<End> SetOut(const PathPoint& from, IncrementFindings* found);
   // The motion from the last increment while the machine rests, in an increment of its own, and the path from where it
   // lands. Where it comes back to an event, the increment in place has the branches of what rests there on record.
   Advance TakeJump(const PathPoint& from);

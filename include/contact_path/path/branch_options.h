@@ -10,7 +10,6 @@
 #include "contact_path/branch/arc_target.h"
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/equations/fixed_mode_system.h"
-#include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/return_detector.h"
 #include "contact_path/scene/scene.h"
 

@@ -15,7 +15,7 @@ namespace contact_path {
 
 // A column of the increment as a whole: of numbers, or of words.
 struct CsvColumn {
-  enum class Place { kFirst, kBehindContacts, kOfProgram, kOfStability, kOfMachine, kOfJumps, kOfChecks };
+  enum Place { kFirst, kBehindContacts, kOfProgram, kOfStability, kOfMachine, kOfJumps, kOfChecks };
   Place place;
   std::string_view name;
   double (*number)(const Increment&);
@@ -24,30 +24,28 @@ struct CsvColumn {
 
 // In the order of the CSV.
 inline constexpr CsvColumn kCsvColumns[] = {
-    {CsvColumn::Place::kFirst, "index", [](const Increment& of) { return static_cast<double>(of.index); }},
-    {CsvColumn::Place::kFirst, "load_factor", [](const Increment& of) { return of.load_factor; }},
-    {CsvColumn::Place::kFirst, "arc_length", [](const Increment& of) { return of.arc_length; }},
-    {CsvColumn::Place::kFirst, "kind", nullptr, [](const Increment& of) { return ToString(of.kind); }},
-    {CsvColumn::Place::kBehindContacts, "dissipation", [](const Increment& of) { return of.dissipation; }},
-    {CsvColumn::Place::kBehindContacts, "strain_energy", [](const Increment& of) { return of.strain_energy; }},
-    {CsvColumn::Place::kBehindContacts, "equilibrium_residual",
-     [](const Increment& of) { return of.residuals.equilibrium; }},
-    {CsvColumn::Place::kBehindContacts, "complementarity_residual",
+    {CsvColumn::kFirst, "index", [](const Increment& of) { return static_cast<double>(of.index); }},
+    {CsvColumn::kFirst, "load_factor", [](const Increment& of) { return of.load_factor; }},
+    {CsvColumn::kFirst, "arc_length", [](const Increment& of) { return of.arc_length; }},
+    {CsvColumn::kFirst, "kind", nullptr, [](const Increment& of) { return ToString(of.kind); }},
+    {CsvColumn::kBehindContacts, "dissipation", [](const Increment& of) { return of.dissipation; }},
+    {CsvColumn::kBehindContacts, "strain_energy", [](const Increment& of) { return of.strain_energy; }},
+    {CsvColumn::kBehindContacts, "equilibrium_residual", [](const Increment& of) { return of.residuals.equilibrium; }},
+    {CsvColumn::kBehindContacts, "complementarity_residual",
      [](const Increment& of) { return of.residuals.Contact(); }},
-    {CsvColumn::Place::kBehindContacts, "solve_time", [](const Increment& of) { return of.solve.time; }},
-    {CsvColumn::Place::kOfProgram, "stage", [](const Increment& of) { return static_cast<double>(of.stage); }},
-    {CsvColumn::Place::kOfStability, "stability", nullptr,
+    {CsvColumn::kBehindContacts, "solve_time", [](const Increment& of) { return of.solve.time; }},
+    {CsvColumn::kOfProgram, "stage", [](const Increment& of) { return static_cast<double>(of.stage); }},
+    {CsvColumn::kOfStability, "stability", nullptr,
      [](const Increment& of) { return ToString(of.stability.stability); }},
-    {CsvColumn::Place::kOfStability, "stability_controlled", nullptr,
+    {CsvColumn::kOfStability, "stability_controlled", nullptr,
      [](const Increment& of) { return ToString(of.stability.stability_controlled); }},
-    {CsvColumn::Place::kOfStability, "unstable_directions",
+    {CsvColumn::kOfStability, "unstable_directions",
      [](const Increment& of) { return static_cast<double>(of.stability.unstable_directions); }},
-    {CsvColumn::Place::kOfStability, "critical_stiffness",
+    {CsvColumn::kOfStability, "critical_stiffness",
      [](const Increment& of) { return of.stability.critical_stiffness; }},
-    {CsvColumn::Place::kOfMachine, "setting", [](const Increment& of) { return of.setting; }},
-    {CsvColumn::Place::kOfJumps, "energy_released", [](const Increment& of) { return of.jump.energy_released; }},
-    {CsvColumn::Place::kOfChecks, "landing_robust",
-     [](const Increment& of) { return of.jump.landing_robust ? 1.0 : 0.0; }},
+    {CsvColumn::kOfMachine, "setting", [](const Increment& of) { return of.setting; }},
+    {CsvColumn::kOfJumps, "energy_released", [](const Increment& of) { return of.jump.energy_released; }},
+    {CsvColumn::kOfChecks, "landing_robust", [](const Increment& of) { return of.jump.landing_robust ? 1.0 : 0.0; }},
 };
 
 // Columns: index, load_factor, arc_length, kind, x_<node>, y_<node>, ..., gap_<contact>, rn_<contact>, rt_<contact>,

@@ -16,8 +16,8 @@
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
-#include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/model.h"
+#include "contact_path/path/return_detector.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {

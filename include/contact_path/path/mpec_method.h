@@ -39,7 +39,7 @@ class MpecMethod : public PathMethod {
   MpecMethod(const Model& model, const MpecOptions& options, std::function<bool()> cancelled);
 
   // Nothing to do: the first increment finds its own way.
-  std::optional<End> Start(const PathPoint&, StartRecord*) override { return std::nullopt; }
+  std::optional<End> Start(const PathPoint&, IncrementFindings*) override { return std::nullopt; }
   bool Resume(const ResumePoint& at) override;
   Advance Next(const PathPoint& from) override;
   Causes Remarks() const override;

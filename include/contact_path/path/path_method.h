@@ -25,12 +25,6 @@ struct AcceptedPoint : IncrementFindings {  // solve: without time
   std::vector<int> at_criteria;  // of options.stop: whose value the point has, exactly
 };
 
-// Where a path sets out.
-struct StartRecord {
-  EventRecord branches;
-  StabilityRecord stability;
-};
-
 // Whether a load factor is, to rounding, at a target that a method has located.
 inline bool IsAtTarget(double load_factor, double target) {
   return std::abs(load_factor - target) <= tolerances::kEqual * std::abs(target);
@@ -54,9 +48,9 @@ class PathMethod {
  public:
   virtual ~PathMethod() = default;
 
-  // Sets out from the initial point, once, before the first Next(). `found`: what is found there. Nothing: done.
+  // Sets out from the initial point, once, before the first Next(). `found`: event and stability. Nothing: done.
   // Otherwise the path ends where it begins.
-  virtual std::optional<End> Start(const PathPoint& from, StartRecord* found) = 0;
+  virtual std::optional<End> Start(const PathPoint& from, IncrementFindings* found) = 0;
   // Goes on in place of Start(). False: that is not possible here.
   virtual bool Resume(const ResumePoint& at) = 0;
 

@@ -33,9 +33,9 @@ class Recorder {
   // The index of the first one of the stage of the last one.
   int first_of_stage() const { return first_of_stage_; }
 
-  // The first increment of a stage. stage: from 1; 0 = there is no program.
-  void Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
-             const StartRecord& found, double time);
+  // The first increment of a stage: its point, residuals and what a method found. stage: from 1; 0 = there is no
+  // program.
+  void Start(const Model& model, int stage, AcceptedPoint start, double time);
   // An increment of an earlier trace, as it is.
   void Repeat(const Increment& increment);
   // accepted: from the last increment on. time: what it took [s].

@@ -1,18 +1,31 @@
-// Whether a path has come back to where it was: from there on it repeats.
+// What is remembered of a path: its largest reaction, by which tolerances of reactions are measured, and increments
+// that tell whether it has come back to where it was: from there on it repeats.
 #ifndef CONTACT_PATH_PATH_RETURN_DETECTOR_H_
 #define CONTACT_PATH_PATH_RETURN_DETECTOR_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "contact_path/branch/mode_arc.h"
+#include "contact_path/law/laws.h"
 #include "contact_path/law/path_point.h"
 #include "contact_path/path/end.h"
-#include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/model.h"
 
 namespace contact_path {
+
+// Of all |r_n| and |r_t| of the points noted, in the force unit of each contact.
+struct LargestReactionSoFar {
+  double of_trace = 0.0;
+  double of_stage = 0.0;  // set to 0 where a stage begins
+
+  void Note(const Laws& laws, const PathPoint& point) {
+    of_stage = std::max(of_stage, laws.LargestForce(point));
+    of_trace = std::max(of_trace, of_stage);
+  }
+};
 
 // Positions, load factor, reactions and contact states make up the whole state: friction remembers only where contacts
 // stick, which the positions tell. A path that meets an earlier point again, in the same direction, therefore repeats
