@@ -1,8 +1,8 @@
 #include "contact_path/branch/bifurcation_branches.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "branch/branch_finder.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -20,19 +20,10 @@ bool SlidesOn(const FixedModeSystem& system, const Eigen::VectorXd& x, const Eig
 
 std::vector<Branch> BifurcationBranches(const ModeArc& arc, const Crossing& crossing, const PathParameter& parameter) {
   const FixedModeSystem& system = arc.system();
-  const Eigen::Index motion = arc.NumMotion();
   const PathPoint point = system.Unpack(crossing.x);
+  const Eigen::VectorXd arrival = crossing.along.first.head(arc.NumMotion());
   const auto branch_along = [&](const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
-    Branch branch;
-    branch.modes = point.modes;
-    branch.direction = first.head(motion);
-    branch.first = first;
-    branch.second = second;
-    branch.load_rate = first[motion - 1];
-    branch.parameter_rate = parameter.Rate(first, motion);
-    branch.dissipation_rate = DissipationRate(system.laws(), branch.modes, point, branch.direction);
-    branch.turn = std::acos(std::clamp(branch.direction.dot(crossing.along.first.head(motion)), -1.0, 1.0));
-    return branch;
+    return BranchAlong(first, second, system.laws(), point.modes, point, parameter, arrival);
   };
   std::vector<Branch> branches = {branch_along(crossing.along.first, crossing.along.second)};
   branches.front().turn = 0.0;  // the arc cosine of 1 less rounding is not

@@ -19,12 +19,54 @@ double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 Measured Rate(double value) { return {value, tolerances::kRate}; }
 
+// -force . rate of what the force works along, >= 0, of the ports that follow, with the forces of the point. A
+// holonomic law, which opposes no motion but a distance, dissipates nothing: 0. direction: (du, ds).
+double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& point, const Eigen::VectorXd& direction) {
+  double rate = 0.0;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const StateRule& state = laws[i].In(modes[i]);
+    if (!state.slides || laws[i].Holonomic()) continue;
+    for (std::size_t p = 0; p < laws[i].NumPorts(); ++p)
+      if (state.ports[p].Follows())
+        rate -=
+            point.forces[laws.FirstPort(i) + static_cast<Eigen::Index>(p)] *
+            laws[i].TravelRate(p, point.u, point.s, point.modes[i].piece, direction, direction[direction.size() - 1]);
+  }
+  return std::max(rate, 0.0);  // rounding may leave less
+}
+
 bool SameReactions(const Branch& branch, const Branch& other) {
   return std::abs(branch.reaction_rate - other.reaction_rate) <=
          tolerances::kRate * (1.0 + std::abs(other.reaction_rate));
 }
 
+// The modes with these states: the first options of each law that have them.
+Modes ModesWith(const States& states, const std::vector<Modes>& options, const PathPoint& point) {
+  Modes modes;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto found = std::find_if(options[i].begin(), options[i].end(),
+                                    [&](const Mode& option) { return option.state == states[i]; });
+    modes.push_back(found != options[i].end() ? *found : Mode{states[i], point.modes[i].piece});
+  }
+  return modes;
+}
+
 }  // namespace
+
+Branch BranchAlong(const Eigen::VectorXd& first, const Eigen::VectorXd& second, const Laws& laws, const Modes& modes,
+                   const PathPoint& point, const PathParameter& parameter, const Eigen::VectorXd& arrival) {
+  const Eigen::Index motion = arrival.size();
+  Branch branch;
+  branch.modes = modes;
+  branch.direction = first.head(motion);
+  branch.first = first;
+  branch.second = second;
+  branch.load_rate = first[motion - 1];
+  branch.parameter_rate = parameter.Rate(first, motion);
+  branch.dissipation_rate = DissipationRate(laws, modes, point, branch.direction);
+  branch.turn = AngleTo(arrival, branch.direction);
+  return branch;
+}
 
 double ForceNorm(const Laws& laws, const PathPoint& point) {
   double sum = 0.0;
@@ -34,16 +76,6 @@ double ForceNorm(const Laws& laws, const PathPoint& point) {
     sum += squares / std::pow(laws[i].ForceUnit(), 2);
   }
   return std::sqrt(sum);
-}
-
-Modes ModesWith(const States& states, const std::vector<Modes>& options, const PathPoint& point) {
-  Modes modes;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto found = std::find_if(options[i].begin(), options[i].end(),
-                                    [&](const Mode& option) { return option.state == states[i]; });
-    modes.push_back(found != options[i].end() ? *found : Mode{states[i], point.modes[i].piece});
-  }
-  return modes;
 }
 
 BranchFinder::BranchFinder(const Structure& structure, const Laws& laws, const PathPoint& point, const Options& options,
@@ -257,19 +289,12 @@ bool BranchFinder::IsPlainer(const Branch& branch, const Branch& other) const {
 
 void BranchFinder::Add(const Tangents& tangents, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                        std::vector<Branch>* branches) const {
-  Branch branch;
-  branch.modes = system_.modes();
+  const Eigen::VectorXd bend = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
+  Branch branch = BranchAlong(first, bend, laws_, system_.modes(), point_, arrival_.parameter, arrival_.direction);
   branch.mechanism = tangents.mechanism;
   branch.singular = tangents.rests;
   branch.rests = tangents.rests || first.head(NumMotion() - 1).norm() <= tolerances::kRate;
-  branch.direction = first.head(NumMotion());
-  branch.first = first;
-  branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
-  branch.load_rate = first[NumMotion() - 1];
-  branch.parameter_rate = arrival_.parameter.Rate(first, NumMotion());
   branch.sense = arrival_.parameter.Sense(first, NumMotion());
-  branch.dissipation_rate = DissipationRate(laws_, branch.modes, point_, branch.direction);
-  branch.turn = AngleTo(arrival_.direction, branch.direction);
   branch.reaction_rate = ForceNorm(laws_, system_.Unpack(first));
   branch.deviation = arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
   for (Branch& other : *branches) {

@@ -16,11 +16,12 @@
 
 namespace contact_path {
 
+// With these derivatives by arc length at the point; arrival: (du, ds), from which the turn is measured.
+Branch BranchAlong(const Eigen::VectorXd& first, const Eigen::VectorXd& second, const Laws& laws, const Modes& modes,
+                   const PathPoint& point, const PathParameter& parameter, const Eigen::VectorXd& arrival);
+
 // Of the forces of a point, or of their rates, each in the force unit of its law.
 double ForceNorm(const Laws& laws, const PathPoint& point);
-
-// The modes with these states: the first options of each law that have them.
-Modes ModesWith(const States& states, const std::vector<Modes>& options, const PathPoint& point);
 
 // Tries combinations of the states that laws may take on from a point, and keeps the branches that lead on: along
 // them no limit has a negative leading sign, that is the sign of the first of its rate, its second derivative, and

@@ -220,20 +220,6 @@ std::string_view ToString(Completeness completeness) {
   return "unknown";
 }
 
-double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& point, const Eigen::VectorXd& direction) {
-  double rate = 0.0;
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const StateRule& state = laws[i].In(modes[i]);
-    if (!state.slides || laws[i].Holonomic()) continue;
-    for (std::size_t p = 0; p < laws[i].NumPorts(); ++p)
-      if (state.ports[p].Follows())
-        rate -=
-            point.forces[laws.FirstPort(i) + static_cast<Eigen::Index>(p)] *
-            laws[i].TravelRate(p, point.u, point.s, point.modes[i].piece, direction, direction[direction.size() - 1]);
-  }
-  return std::max(rate, 0.0);  // rounding may leave less
-}
-
 BranchSet FindBranches(const Structure& structure, const Laws& laws, const PathPoint& point, const Arrival& arrival,
                        const ActiveSetTolerance& tolerance, const std::function<bool()>& cancelled) {
   BranchSet result = BranchesWithForces(structure, laws, point, arrival, tolerance, cancelled);

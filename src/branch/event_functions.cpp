@@ -32,12 +32,16 @@ double CubicDifference(const Quintic& quintic, double length) {
   return std::abs(Evaluate(quintic, 0.5 * length) - (0.5 * (a + b) + 0.125 * length * (da - db)));
 }
 
-// The point of the curve on the plane through its interpolation at t.
-std::optional<CurvePoint> PointAt(SmoothArc* arc, const Step& step, double t) {
-  const Correction correction = arc->CorrectOnPlane(step.Point(t), step.normal);
+// With the derivatives there; nothing where there are none.
+std::optional<CurvePoint> PointOf(SmoothArc* arc, const Step& step, const Correction& correction) {
   CurvePoint point;
   if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
   return point;
+}
+
+// The point of the curve on the plane through its interpolation at t.
+std::optional<CurvePoint> PointAt(SmoothArc* arc, const Step& step, double t) {
+  return PointOf(arc, step, arc->CorrectOnPlane(step.Point(t), step.normal));
 }
 
 // Zero of a rate, by Newton's method along the curve. along(point): the jet whose first derivative it is; gradient(x):
@@ -56,8 +60,7 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
     previous = std::abs(value);
     if (!(std::abs(move) <= step.length)) return std::nullopt;
     const Eigen::VectorXd guess = point->x + move * point->first + 0.5 * move * move * point->second;
-    const Correction correction = arc->CorrectOnPlane(guess, step.normal);
-    if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &*point)) return std::nullopt;
+    point = PointOf(arc, step, arc->CorrectOnPlane(guess, step.normal));
   }
   return point;
 }
@@ -252,14 +255,11 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kBifurcation: return std::nullopt;
     case EventKind::kLimitPoint:
       return LocateTurnNear(arc, step, event.t, Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()));
-    case EventKind::kTarget: {
-      const Correction correction =
+    case EventKind::kTarget:
+      return PointOf(
+          arc, step,
           arc->Correct(step.Point(event.t), Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()),
-                       ends.load_factor.value());
-      CurvePoint point;
-      if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
-      return point;
-    }
+                       ends.load_factor.value()));
     case EventKind::kSample:
       return LocateSample(arc, step, event.t, ends.functions[event.sample->target], event.sample->value);
     case EventKind::kContactEvent: break;

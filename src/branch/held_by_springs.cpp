@@ -44,31 +44,29 @@ void AddCurvature(const PortsAt& at, const PortReals& forces, Eigen::Index nd, T
 
 HeldBySprings::HeldBySprings(const Structure& structure, const Laws& laws, const PathPoint& point, const Modes& modes,
                              const std::vector<int>& weakly_active)
-    : system_(structure, laws), ports_(weakly_active.size()) {
+    : system_(structure, laws), laws_(weakly_active.size()) {
   Modes idle = modes;
-  Eigen::Index num_ports = 0;
-  for (const int i : weakly_active) {
-    const Law& law = laws[static_cast<std::size_t>(i)];
-    int& state = idle[static_cast<std::size_t>(i)].state;
-    for (state = 0; !law.In(state).idle; ++state) {
+  for (std::size_t k = 0; k < weakly_active.size(); ++k) {
+    const auto i = static_cast<std::size_t>(weakly_active[k]);
+    for (idle[i].state = 0; !laws[i].In(idle[i]).idle; ++idle[i].state) {
     }
-    first_port_.push_back(num_ports);
-    num_ports += static_cast<Eigen::Index>(law.NumPorts());
+    const auto first = static_cast<Eigen::Index>(ports_.size());
+    for (std::size_t p = 0; p < laws[i].NumPorts(); ++p) ports_.push_back({k, p, first});
   }
   system_.SetModes(idle);
   x_ = system_.Pack(point);
   without_ = system_.TransposedJacobian(x_);
-  springs_.resize(num_ports);
+  springs_.resize(static_cast<Eigen::Index>(ports_.size()));
+  Eigen::Index port = 0;
   Triplets springs, curvature;
   for (std::size_t k = 0; k < weakly_active.size(); ++k) {
     const auto i = static_cast<std::size_t>(weakly_active[k]);
     const Law& law = laws[i];
-    PortsAt& at = ports_[k];
+    PortsAt& at = laws_[k];
     law.Evaluate(point.u, point.s, modes[i].piece, {}, &at);
-    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
-      double& spring = springs_[first_port_[k] + static_cast<Eigen::Index>(p)];
-      spring = SpringOf(law, p);
-      AddSpring(at.dofs, at[p].gradient, spring * at[p].factor, system_.NumDofs(), &springs);
+    for (std::size_t p = 0; p < law.NumPorts(); ++p, ++port) {
+      springs_[port] = SpringOf(law, p);
+      AddSpring(at.dofs, at[p].gradient, springs_[port] * at[p].factor, system_.NumDofs(), &springs);
     }
     if (law.Curved()) AddCurvature(at, laws.Of(point.forces, i), system_.NumDofs(), &curvature);
     couples_ = couples_ || law.Couples();
@@ -79,6 +77,14 @@ HeldBySprings::HeldBySprings(const Structure& structure, const Laws& laws, const
   Eigen::SparseMatrix<double> change(without_.rows(), without_.cols());
   change.setFromTriplets(curvature.begin(), curvature.end());
   without_ += change;
+}
+
+Eigen::MatrixXd HeldBySprings::Rates(const Eigen::MatrixXd& du, double ds) const {
+  Eigen::MatrixXd rates(springs_.size(), du.cols());
+  for (Eigen::Index port = 0; port < rates.rows(); ++port)
+    for (Eigen::Index j = 0; j < rates.cols(); ++j)
+      rates(port, j) = LawOf(port).Rate(At(port).gradient, du.col(j), j == 0 ? ds : 0.0);
+  return rates;
 }
 
 Eigen::SparseMatrix<double> HeldBySprings::TransposedJacobian(double share) const {

@@ -59,12 +59,6 @@ std::optional<Eigen::MatrixXd> Solved(const Eigen::MatrixXd& A, const Eigen::Mat
 
 }  // namespace
 
-RateComplementarity::RateComplementarity(const RatePairs& pairs, const RateProblem& rates) : pairs_(pairs) {
-  if (!pairs.exist() || !rates.regular()) return;
-  compliance_ = pairs.Compliances().cwiseProduct(rates.Springs());
-  Build(rates);
-}
-
 std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::MatrixXd& A) const {
   const Eigen::Index size = A.rows();
   IndependentColumns columns(size);
@@ -90,7 +84,8 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
   return given;
 }
 
-void RateComplementarity::Build(const RateProblem& rates) {
+RateComplementarity::RateComplementarity(const RatePairs& pairs, const RateProblem& rates)
+    : pairs_(pairs), compliance_(pairs.Compliances().cwiseProduct(rates.Springs())) {
   const Eigen::Index size = rates.MotionRates().rows();
   // v = A (r + v) + b s', r over the stiffness of the spring of the port: the springs are part of the condensed
   // problem. With a compliance c, times that stiffness, the motion v stands for v + c r: v - A v - (A (1 - c) + c) r =
@@ -120,17 +115,16 @@ void RateComplementarity::Build(const RateProblem& rates) {
   Eigen::VectorXd h = solved->col(size);
 
   // Of two pairs of one port the second has its motion as a share of the port's.
-  const std::vector<RatePairs::Pair>& pairs = pairs_.pairs();
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    motion_is_second_.push_back((*given)[static_cast<std::size_t>(pairs[p].port)] ||
-                                (p > 0 && pairs[p - 1].first_of_two));
+  const std::vector<RatePairs::Pair>& all = pairs.pairs();
+  for (std::size_t p = 0; p < all.size(); ++p)
+    motion_is_second_.push_back((*given)[static_cast<std::size_t>(all[p].port)] || (p > 0 && all[p - 1].first_of_two));
 
   // The second variables of the pairs are Z z = D g + E y, so that g = (D + E G)^-1 (Z z - E h s').
-  const auto num_pairs = static_cast<Eigen::Index>(pairs.size());
+  const auto num_pairs = static_cast<Eigen::Index>(all.size());
   Eigen::MatrixXd D = Eigen::MatrixXd::Identity(size, size), Z = Eigen::MatrixXd::Zero(size, num_pairs);
   Eigen::VectorXd d = Eigen::VectorXd::Zero(size);
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
-    const RatePairs::Pair& pair = pairs[static_cast<std::size_t>(p)];
+    const RatePairs::Pair& pair = all[static_cast<std::size_t>(p)];
     const Eigen::Index t = pair.port, n = pair.other;
     // Of the motion, or of the force with those of other ports; the motion the other way, where the force is given, is
     // no share of it.
@@ -167,7 +161,7 @@ void RateComplementarity::Build(const RateProblem& rates) {
   matrix_.resize(num_pairs, num_pairs);
   load_.resize(num_pairs);
   for (Eigen::Index p = 0; p < num_pairs; ++p) {
-    const RatePairs::Pair& pair = pairs[static_cast<std::size_t>(p)];
+    const RatePairs::Pair& pair = all[static_cast<std::size_t>(p)];
     const bool motion = !motion_is_second_[static_cast<std::size_t>(p)];
     Eigen::RowVectorXd row = pair.sign * row_of(pair.port, motion);
     if (pair.other >= 0 && !motion) row += pair.weight * row_of(pair.other, false);

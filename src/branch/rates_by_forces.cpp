@@ -2,18 +2,16 @@
 
 #include <cmath>
 
-#include "contact_path/branch/lemke.h"
+#include "contact_path/branch/complementarity.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 RatesByForces::RatesByForces(const Structure& structure, const Laws& laws, const PathPoint& point, const Modes& modes,
                              const std::vector<int>& weakly_active, const RatePairs& pairs)
     : held_(structure, laws, point, modes, weakly_active), pairs_(pairs) {
-  for (std::size_t k = 0; k < weakly_active.size(); ++k)
-    law_of_.insert(law_of_.end(), laws[static_cast<std::size_t>(weakly_active[k])].NumPorts(), k);
   exists_ = NumberForces();
   if (!exists_) return;
-  for (std::size_t k = 0; k < weakly_active.size(); ++k) AddForces(k);
+  AddForces();
   AddPairs();
 }
 
@@ -27,7 +25,7 @@ bool RatesByForces::NumberForces() {
     if (p > 0 && pairs[p - 1].first_of_two) slip_of_[p] = slip_of_[p - 1];
   }
   const auto num_pairs = static_cast<Eigen::Index>(pairs.size());
-  force_.resize(law_of_.size());
+  force_.resize(held_.Ports().size());
   for (std::size_t d = 0; d < force_.size(); ++d)
     if (pairs_.TurnOf(static_cast<Eigen::Index>(d)) == RatePairs::kHeld)
       force_[d].push_back({held_.system().NumUnknowns() - 1 + num_held_++, 1.0});
@@ -47,13 +45,13 @@ bool RatesByForces::NumberForces() {
   return true;
 }
 
-void RatesByForces::AddForces(std::size_t k) {
-  const PortsAt& at = held_.Ports(k);
-  for (auto d = static_cast<std::size_t>(held_.FirstPort(k)); d < law_of_.size() && law_of_[d] == k; ++d) {
-    const PortAt& port = at[d - static_cast<std::size_t>(held_.FirstPort(k))];
+void RatesByForces::AddForces() {
+  for (std::size_t d = 0; d < force_.size(); ++d) {
+    const LawDofs& dofs = held_.LawOf(static_cast<Eigen::Index>(d)).dofs;
+    const PortAt& port = held_.At(static_cast<Eigen::Index>(d));
     for (const Term& term : force_[d])
-      for (std::size_t a = 0; a < at.dofs.size(); ++a)
-        entries_.emplace_back(at.dofs[a], term.column,
+      for (std::size_t a = 0; a < dofs.size(); ++a)
+        entries_.emplace_back(dofs[a], term.column,
                               -term.share * port.factor * port.gradient[static_cast<Eigen::Index>(a)]);
   }
 }
@@ -62,7 +60,7 @@ void RatesByForces::AddPairs() {
   const std::vector<RatePairs::Pair>& pairs = pairs_.pairs();
   const auto count = static_cast<Eigen::Index>(pairs.size()) + num_slips_;
   Eigen::Index row = held_.system().NumUnknowns() - 1;
-  for (std::size_t d = 0; d < law_of_.size(); ++d)
+  for (std::size_t d = 0; d < force_.size(); ++d)
     if (pairs_.TurnOf(static_cast<Eigen::Index>(d)) == RatePairs::kHeld)
       AddMotion(row++, static_cast<Eigen::Index>(d), 1.0);
   // w less what it is.
@@ -83,17 +81,15 @@ void RatesByForces::AddPairs() {
 
 // factor * the motion of a port, what it gives way by included.
 void RatesByForces::AddMotion(Eigen::Index equation, Eigen::Index port, double factor) {
-  const auto d = static_cast<std::size_t>(port);
-  const std::size_t k = law_of_[d];
-  const PortsAt& at = held_.Ports(k);
-  const LawVector& gradient = at[d - static_cast<std::size_t>(held_.FirstPort(k))].gradient;
-  for (std::size_t a = 0; a < at.dofs.size(); ++a)
-    entries_.emplace_back(equation, at.dofs[a], factor * gradient[static_cast<Eigen::Index>(a)]);
-  for (const Term& term : force_[d])
+  const LawDofs& dofs = held_.LawOf(port).dofs;
+  const LawVector& gradient = held_.At(port).gradient;
+  for (std::size_t a = 0; a < dofs.size(); ++a)
+    entries_.emplace_back(equation, dofs[a], factor * gradient[static_cast<Eigen::Index>(a)]);
+  for (const Term& term : force_[static_cast<std::size_t>(port)])
     entries_.emplace_back(equation, term.column, factor * pairs_.Compliances()[port] * term.share);
   const auto pairs = static_cast<Eigen::Index>(pairs_.pairs().size()) + num_slips_;
   entries_.emplace_back(equation, held_.system().NumUnknowns() - 1 + num_held_ + 2 * pairs,
-                        factor * gradient[static_cast<Eigen::Index>(at.dofs.size())]);
+                        factor * gradient[static_cast<Eigen::Index>(dofs.size())]);
 }
 
 // Forces over k and motions times k, k^2 the stiffness of the springs, so that motions and forces are of one size.

@@ -36,14 +36,13 @@ class RatesByForces {
   };
 
   bool NumberForces();
-  void AddForces(std::size_t k);
+  void AddForces();
   void AddPairs();
   void AddMotion(Eigen::Index equation, Eigen::Index port, double factor);
   void Scale(double share, Eigen::SparseMatrix<double>* equations, Eigen::VectorXd* changes) const;
 
   HeldBySprings held_;
   const RatePairs& pairs_;
-  std::vector<std::size_t> law_of_;       // by port: among the weakly active ones
   std::vector<Eigen::Index> slip_of_;     // by pair: among the slips of ports that may move both ways; -1: none
   std::vector<std::vector<Term>> force_;  // by port
   Eigen::Index num_held_ = 0, num_slips_ = 0;

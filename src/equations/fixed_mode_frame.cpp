@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
+#include <vector>
 
 #include "contact_path/linear/bordered_solver.h"
 
@@ -17,61 +17,42 @@ constexpr double kMostInFrame = 2.0;
 // these ports, prescribed components. Where a system stands in it is left open.
 Frame FrameAround(const Structure& structure, const Laws& laws, const std::vector<std::size_t>& framed,
                   const Eigen::SparseMatrix<double>& tangent) {
-  const auto nd = static_cast<int>(structure.NumDofs());
-  int first_support = nd;
-  for (const std::size_t i : framed) first_support += static_cast<int>(laws[i].NumPorts());
-  const int s = first_support + static_cast<int>(structure.PrescribedDofs().size());
-  std::vector<std::pair<int, int>> forces;  // dof, unknown
-  int place = nd;
+  auto s = static_cast<int>(structure.NumDofs() + static_cast<Eigen::Index>(structure.PrescribedDofs().size()));
+  for (const std::size_t i : framed) s += static_cast<int>(laws[i].NumPorts());
+  std::vector<Eigen::Triplet<double>> entries;  // unknown, equation
+  entries.reserve(static_cast<std::size_t>(tangent.nonZeros() + s) + 16 * framed.size());
+  int place = 0;
+  for (; place < structure.NumDofs(); ++place) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent, place); it; ++it)
+      entries.emplace_back(static_cast<int>(it.row()), place);
+    entries.emplace_back(s, place);
+  }
   for (const std::size_t i : framed) {
     const Law& law = laws[i];
     const LawDofs dofs = law.Dofs(0);
-    for (std::size_t k = 0; k < dofs.size(); ++k) {
-      bool moves = false;  // forces that follow that of port 0 are in its column
-      for (std::size_t p = law.NumPorts(); p-- > 0;) {
-        moves = moves || law.Moves(p, k);
-        if (p == 0 ? moves : law.Moves(p, k)) forces.emplace_back(dofs[k], place + static_cast<int>(p));
+    const int first = place;
+    for (std::size_t p = 0; p < law.NumPorts(); ++p, ++place) {
+      entries.emplace_back(place, place);
+      if (law.Moves(p, dofs.size())) entries.emplace_back(s, place);
+      for (std::size_t k = 0; k < dofs.size(); ++k) {
+        if (!law.Moves(p, k)) continue;
+        entries.emplace_back(dofs[k], place);
+        entries.emplace_back(place, dofs[k]);
+        entries.emplace_back(first, dofs[k]);  // a force that follows that of port 0
       }
     }
-    place += static_cast<int>(law.NumPorts());
   }
-  int support = first_support;
-  for (const PrescribedDof& prescribed : structure.PrescribedDofs()) forces.emplace_back(prescribed.dof, support++);
-  std::sort(forces.begin(), forces.end());
-
+  for (const PrescribedDof& prescribed : structure.PrescribedDofs()) {
+    for (const int unknown : {prescribed.dof, place, s}) entries.emplace_back(unknown, place);
+    entries.emplace_back(place++, prescribed.dof);
+  }
+  Eigen::SparseMatrix<double> pattern(s + 1, s);
+  pattern.setFromTriplets(entries.begin(), entries.end());
   Frame frame;
-  std::vector<int>&starts = frame.starts, &entries = frame.entries;
   frame.size = s + 1;
   frame.orderings = structure.SharedOrderings();
-  starts.reserve(static_cast<std::size_t>(frame.size));
-  starts.push_back(0);
-  entries.reserve(static_cast<std::size_t>(tangent.nonZeros() + nd) + 8 * framed.size() + forces.size());
-  const auto end_equation = [&] { starts.push_back(static_cast<int>(entries.size())); };
-  auto force = forces.begin();
-  for (int column = 0; column < nd; ++column) {
-    entries.insert(entries.end(), tangent.innerIndexPtr() + tangent.outerIndexPtr()[column],
-                   tangent.innerIndexPtr() + tangent.outerIndexPtr()[column + 1]);
-    for (; force != forces.end() && force->first == column; ++force) entries.push_back(force->second);
-    entries.push_back(s);
-    end_equation();
-  }
-  place = nd;
-  for (const std::size_t i : framed) {
-    const Law& law = laws[i];
-    const LawDofs dofs = law.Dofs(0);
-    for (std::size_t p = 0; p < law.NumPorts(); ++p) {
-      for (std::size_t k = 0; k < dofs.size(); ++k)
-        if (law.Moves(p, k)) entries.push_back(dofs[k]);
-      entries.push_back(place++);
-      if (law.Moves(p, dofs.size())) entries.push_back(s);
-      end_equation();
-    }
-  }
-  support = first_support;
-  for (const PrescribedDof& prescribed : structure.PrescribedDofs()) {
-    entries.insert(entries.end(), {prescribed.dof, support++, s});
-    end_equation();
-  }
+  frame.starts.assign(pattern.outerIndexPtr(), pattern.outerIndexPtr() + frame.size);
+  frame.entries.assign(pattern.innerIndexPtr(), pattern.innerIndexPtr() + pattern.nonZeros());
   return frame;
 }
 

@@ -113,22 +113,22 @@ RigidModes::RigidModes(const Structure& structure) : structure_(structure) {
   for (const std::vector<int>& part : members) {
     RowSpace held(3);
     bool moves = false;
-    const Eigen::MatrixX3d motions = MotionsOf({part}, values);
+    const Eigen::MatrixX3d motions = MotionsOf(part, values);
     for (std::size_t k = 0; k < part.size(); ++k) {
       const int dof = components[static_cast<std::size_t>(part[k])].dof;
       const bool is_free = dof >= 0 && !prescribed[static_cast<std::size_t>(dof)];
       moves = moves || is_free;
       if (!is_free) held.Add(motions.row(static_cast<Eigen::Index>(k)));
     }
-    if (moves && held.NullSpace().cols() > 0) loose_.push_back({part});
+    if (moves && held.NullSpace().cols() > 0) loose_.push_back(part);
   }
 }
 
-Eigen::MatrixX3d RigidModes::MotionsOf(const Part& part, const Eigen::VectorXd& values) const {
+Eigen::MatrixX3d RigidModes::MotionsOf(const std::vector<int>& part, const Eigen::VectorXd& values) const {
   const std::vector<DofMap::Component>& components = structure_.Dofs().Components();
   std::vector<Eigen::Vector2d> places;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const int i : part.components) {
+  for (const int i : part) {
     const int node = components[static_cast<std::size_t>(i)].node;
     places.emplace_back(values[structure_.Dofs().Index(node, Field::kPosition, 0)],
                         values[structure_.Dofs().Index(node, Field::kPosition, 1)]);
@@ -138,7 +138,7 @@ Eigen::MatrixX3d RigidModes::MotionsOf(const Part& part, const Eigen::VectorXd& 
   Eigen::MatrixX3d motions(static_cast<Eigen::Index>(places.size()), 3);
   for (std::size_t k = 0; k < places.size(); ++k)
     motions.row(static_cast<Eigen::Index>(k)) =
-        MotionOf(components[static_cast<std::size_t>(part.components[k])], places[k] - middle);
+        MotionOf(components[static_cast<std::size_t>(part[k])], places[k] - middle);
   return motions;
 }
 
@@ -152,8 +152,8 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
   std::vector<RowSpace> resisted(loose_.size(), RowSpace(3));
   for (std::size_t p = 0; p < loose_.size(); ++p) {
     const Eigen::MatrixX3d motions = MotionsOf(loose_[p], values);
-    for (std::size_t k = 0; k < loose_[p].components.size(); ++k) {
-      const int dof = structure_.Dofs().Components()[static_cast<std::size_t>(loose_[p].components[k])].dof;
+    for (std::size_t k = 0; k < loose_[p].size(); ++k) {
+      const int dof = structure_.Dofs().Components()[static_cast<std::size_t>(loose_[p][k])].dof;
       if (dof < 0) {
         resisted[p].Add(motions.row(static_cast<Eigen::Index>(k)));
         continue;

@@ -86,19 +86,16 @@ PortReals Law::CompliantForces(const Eigen::VectorXd& u, double s, const Mode& m
   return forces;
 }
 
-double Law::Energy(const Mode& mode, const PortReals& forces) const {
-  double energy = 0.0;
-  for (std::size_t p = 0; p < NumPorts(); ++p) energy += 0.5 * In(mode).ports[p].compliance * forces[p] * forces[p];
-  return energy;
-}
-
 double Law::EnergyAt(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const {
-  if (!Curved() || !Compliant() || Elastic() || forces == PortReals{}) return Energy(mode, forces);
-  PortsAt at;
-  Evaluate(u, s, mode.piece, {}, &at);
   PortReals stored = forces;
-  for (std::size_t p = 0; p < NumPorts(); ++p) stored[p] *= std::sqrt(std::max(0.0, at[p].factor));
-  return Energy(mode, stored);
+  if (Curved() && Compliant() && !Elastic() && forces != PortReals{}) {
+    PortsAt at;
+    Evaluate(u, s, mode.piece, {}, &at);
+    for (std::size_t p = 0; p < NumPorts(); ++p) stored[p] *= std::sqrt(std::max(0.0, at[p].factor));
+  }
+  double energy = 0.0;
+  for (std::size_t p = 0; p < NumPorts(); ++p) energy += 0.5 * In(mode).ports[p].compliance * stored[p] * stored[p];
+  return energy;
 }
 
 void Law::AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const {

@@ -1,7 +1,6 @@
 #include "contact_path/law/pin_joint.h"
 
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "contact_path/scene/expand.h"
@@ -41,10 +40,6 @@ void PinJoint::ForceHessian(const Eigen::VectorXd& u, double s, int /*piece*/, c
                             const LawVector& weights, LawMatrix* hessian) const {
   // The force is a gradient: its second derivatives, weighted, are the change of its first ones along the weights.
   *hessian = PlaceAt(apart_, u, s).SecondChange({forces[0], forces[1]}, weights);
-}
-
-double PinJoint::Reach(const Eigen::VectorXd& /*u*/, double /*s*/) const {
-  return std::numeric_limits<double>::infinity();  // never idle
 }
 
 std::vector<Ray> PinJoint::Rays(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/,

@@ -8,12 +8,12 @@
 
 namespace contact_path {
 
-ReachTracker::ReachTracker(const Laws& laws) : laws_(laws) {}
-
 std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::VectorXd>& u, double s, double reach) {
-  if (!sound_ || u_.size() != u.size()) LookAtAll();
-  sound_ = false;
   if (u_.size() == u.size()) moved_ += std::hypot((u - u_).norm(), s - s_);
+  if (u_.size() != u.size() || looks_.size() != laws_.size()) {
+    looks_.clear();
+    for (std::size_t i = 0; i < laws_.size(); ++i) looks_.emplace_back(moved_, i);  // a heap: all are equal
+  }
   u_ = u;
   s_ = s;
   // Rounding of the sum and of the distances.
@@ -32,13 +32,7 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
   }
   while (end != looks_.end()) std::push_heap(looks_.begin(), ++end, later);
   std::sort(in_reach.begin(), in_reach.end());
-  sound_ = true;
   return in_reach;
-}
-
-void ReachTracker::LookAtAll() {
-  looks_.clear();
-  for (std::size_t i = 0; i < laws_.size(); ++i) looks_.emplace_back(moved_, i);  // a heap: all are equal
 }
 
 }  // namespace contact_path

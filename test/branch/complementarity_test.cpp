@@ -1,6 +1,5 @@
 // Toy problems w = M z + q, 0 <= w, 0 <= z, w . z = 0.
 #include "contact_path/branch/complementarity.h"
-#include "contact_path/branch/lemke.h"
 
 #include <gtest/gtest.h>
 

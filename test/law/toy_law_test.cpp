@@ -121,7 +121,6 @@ class ToyLaw : public Law {
   Mode InState(const VectorXd& u, double /*s*/, int state) const override {
     return {state, static_cast<int>(std::floor(u[0]))};
   }
-  std::vector<Ray> Rays(const VectorXd&, double, int, const ActiveSetTolerance&) const override { return {}; }
 };
 
 // Springs of 1 hold (x, y, z) to (0, 0, 0.3); y is pressed with 1, the load s is along x.

@@ -72,10 +72,6 @@ struct BranchSet {
   int rigid_modes = 0;     // most motions found that change neither load nor reactions where nothing else moves
 };
 
-// -force . rate of what the force works along, >= 0, of the ports that follow, with the forces of the point. A
-// holonomic law, which opposes no motion but a distance, dissipates nothing: 0. direction: (du, ds).
-double DissipationRate(const Laws& laws, const Modes& modes, const PathPoint& point, const Eigen::VectorXd& direction);
-
 // All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all laws that slide, and
 // each law with a limit that is zero to `tolerance`. Of branches with equal directions one is kept: the branch in which
 // fewest laws slide without moving. Where all branches turn by 90 degrees or more, or, with

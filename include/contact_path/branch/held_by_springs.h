@@ -21,10 +21,16 @@ class HeldBySprings {
   HeldBySprings(const Structure& structure, const Laws& laws, const PathPoint& point, const Modes& modes,
                 const std::vector<int>& weakly_active);
 
-  // Ports of the weakly active laws, in their order.
-  Eigen::Index NumPorts() const { return springs_.size(); }
-  Eigen::Index FirstPort(std::size_t k) const { return first_port_[k]; }
-  const PortsAt& Ports(std::size_t k) const { return ports_[k]; }
+  // A port of the weakly active laws, all of which are numbered in their order.
+  struct Port {
+    std::size_t law, of_law;  // among the weakly active ones, and among the ports of the law
+    Eigen::Index first;       // number of the first port of the law
+  };
+  const std::vector<Port>& Ports() const { return ports_; }
+  const PortsAt& LawOf(Eigen::Index port) const { return laws_[ports_[static_cast<std::size_t>(port)].law]; }
+  const PortAt& At(Eigen::Index port) const { return LawOf(port)[ports_[static_cast<std::size_t>(port)].of_law]; }
+  // Of the motions of the ports: rows; by columns of du, with ds along the first of them.
+  Eigen::MatrixXd Rates(const Eigen::MatrixXd& du, double ds) const;
   // By port: scaled stiffness of its spring.
   const Eigen::VectorXd& Springs() const { return springs_; }
 
@@ -40,8 +46,8 @@ class HeldBySprings {
  private:
   FixedModeSystem system_;
   Eigen::VectorXd x_;
-  std::vector<PortsAt> ports_;  // by weakly active law
-  std::vector<Eigen::Index> first_port_;
+  std::vector<PortsAt> laws_;  // by weakly active law
+  std::vector<Port> ports_;
   Eigen::VectorXd springs_;
   Eigen::SparseMatrix<double> without_, of_springs_;
   bool couples_ = false;

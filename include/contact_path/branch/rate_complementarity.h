@@ -17,6 +17,7 @@ namespace contact_path {
 // forces are given.
 class RateComplementarity {
  public:
+  // The pairs must exist and outlive the problem; the rates must be regular.
   RateComplementarity(const RatePairs& pairs, const RateProblem& rates);
 
   // False: the problem is singular.
@@ -30,7 +31,6 @@ class RateComplementarity {
   std::vector<States> Solve(double load_sense) const;
 
  private:
-  void Build(const RateProblem& rates);
   // Of motions v = A (r + v) + b s': which of them are given, and the forces follow; nothing: singular.
   std::optional<std::vector<bool>> GivenMotions(const Eigen::MatrixXd& A) const;
 

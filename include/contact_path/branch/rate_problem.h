@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact_path/branch/held_by_springs.h"
 #include "contact_path/equations/fixed_mode_system.h"
 #include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/law/laws.h"
@@ -38,8 +39,6 @@ class RateProblem {
   const Eigen::MatrixXd& MotionRates() const { return motion_; }
   // By port: scaled stiffness of its spring.
   const Eigen::VectorXd& Springs() const { return springs_; }
-  // Of the first port of a weakly active law.
-  Eigen::Index FirstPort(std::size_t k) const { return first_port_[k]; }
 
   // The rates for these states of all laws, up to their sign. Nothing where they are not unique, and where parts can
   // move as rigid bodies: in rounding such rates may look unique.
@@ -52,9 +51,12 @@ class RateProblem {
                               const ActiveSetTolerance& active, double tolerance, std::vector<Limit>* all) const;
 
  private:
-  const StateRule& StateIn(const States& states, std::size_t k) const {
-    const auto i = static_cast<std::size_t>(weakly_active_[k]);
-    return laws_[i].In(states[i]);
+  const Law& LawOf(Eigen::Index port) const { return laws_[IndexOf(port)]; }
+  std::size_t IndexOf(Eigen::Index port) const {
+    return static_cast<std::size_t>(weakly_active_[ports_[static_cast<std::size_t>(port)].law]);
+  }
+  const PortRule& RuleOf(const States& states, Eigen::Index port) const {
+    return LawOf(port).In(states[IndexOf(port)]).ports[ports_[static_cast<std::size_t>(port)].of_law];
   }
   Eigen::MatrixXd Equations(const States& states) const;
   // Whether a rigid motion of parts that only weakly active laws may hold is free in these states.
@@ -63,8 +65,7 @@ class RateProblem {
   const Laws& laws_;
   const PathPoint point_;
   std::vector<int> weakly_active_;
-  std::vector<Eigen::Index> first_port_;
-  Eigen::Index num_ports_ = 0;
+  std::vector<HeldBySprings::Port> ports_;
   bool regular_ = false;
   Eigen::VectorXd springs_;
   Eigen::MatrixXd motion_;  // MotionRates()

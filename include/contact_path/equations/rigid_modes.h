@@ -26,14 +26,11 @@ class RigidModes {
   Eigen::MatrixXd At(const Eigen::VectorXd& u, const Eigen::SparseMatrix<double>& transposed) const;
 
  private:
-  struct Part {
-    std::vector<int> components;  // into Dofs().Components()
-  };
-  // Columns: translation along x and y, rotation about the mean position, of the part; rows: its components.
-  Eigen::MatrixX3d MotionsOf(const Part& part, const Eigen::VectorXd& values) const;
+  // Columns: translation along x and y, rotation about the mean position, of a part; rows: its components.
+  Eigen::MatrixX3d MotionsOf(const std::vector<int>& part, const Eigen::VectorXd& values) const;
 
   const Structure& structure_;
-  std::vector<Part> loose_;
+  std::vector<std::vector<int>> loose_;  // components of each part, into Dofs().Components()
 };
 
 }  // namespace contact_path

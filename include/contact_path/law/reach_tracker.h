@@ -16,7 +16,7 @@ namespace contact_path {
 class ReachTracker {
  public:
   // laws: must outlive the tracker.
-  explicit ReachTracker(const Laws& laws);
+  explicit ReachTracker(const Laws& laws) : laws_(laws) {}
 
   // The laws with Reach() <= reach times their largest rate at (u, s), ascending. u: the dofs, and maybe more entries,
   // which then count as motion, too; of another size than in the last call, all laws are looked at.
@@ -25,11 +25,8 @@ class ReachTracker {
  private:
   using Look = std::pair<double, std::size_t>;  // at which distance moved, which law
 
-  void LookAtAll();
-
   const Laws& laws_;
   std::vector<Look> looks_;  // a heap: the next one first
-  bool sound_ = false;       // looks_ is; not after a call that an exception ended
   Eigen::VectorXd u_;        // of the last call; empty before
   double s_ = 0.0;
   double moved_ = 0.0;  // sum of the distances between calls
