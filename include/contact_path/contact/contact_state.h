@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "contact_path/law/path_point.h"
@@ -41,15 +40,7 @@ enum class ContactState {
   kOpen,       // gap >= 0, r = 0
 };
 
-template <>
-struct Words<ContactState> {
-  static constexpr ContactState kDefault = ContactState::kOpen;
-  static constexpr std::pair<std::string_view, ContactState> kAll[] = {{"open", ContactState::kOpen},
-                                                                       {"stick", ContactState::kStick},
-                                                                       {"slip+", ContactState::kSlipPlus},
-                                                                       {"slip-", ContactState::kSlipMinus},
-                                                                       {"closed", ContactState::kClosed}};
-};
+constexpr auto WordsOf(ContactState) { return WordList("stick", "slip+", "slip-", "closed", "open"); }
 
 // slip+ or slip-.
 inline bool Slips(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -30,23 +29,11 @@ enum class EndReason {
   kNoLanding,  // a jump was followed for long and came to no equilibrium
 };
 
-template <>
-struct Words<EndReason> {
-  static constexpr EndReason kDefault = EndReason::kNumericalFailure;
-  static constexpr std::pair<std::string_view, EndReason> kAll[] = {{"numerical_failure", EndReason::kNumericalFailure},
-                                                                    {"stop_criterion", EndReason::kStopCriterion},
-                                                                    {"max_increments", EndReason::kMaxIncrements},
-                                                                    {"path_end", EndReason::kPathEnd},
-                                                                    {"step_too_small", EndReason::kStepTooSmall},
-                                                                    {"cancelled", EndReason::kCancelled},
-                                                                    {"no_such_branch", EndReason::kNoSuchBranch},
-                                                                    {"closed_path", EndReason::kClosedPath},
-                                                                    {"memory_limit", EndReason::kMemoryLimit},
-                                                                    {"element_inverted", EndReason::kElementInverted},
-                                                                    {"not_determined", EndReason::kNotDetermined},
-                                                                    {"at_limit", EndReason::kAtLimit},
-                                                                    {"no_landing", EndReason::kNoLanding}};
-};
+constexpr auto WordsOf(EndReason) {
+  return WordList("numerical_failure", "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled",
+                  "no_such_branch", "closed_path", "memory_limit", "element_inverted", "not_determined", "at_limit",
+                  "no_landing");
+}
 
 // Whether numbers end the trace, and not the structure or the caller.
 bool IsNumerical(EndReason reason);

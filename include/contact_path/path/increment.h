@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
@@ -37,19 +36,10 @@ enum class IncrementKind {
   kJump,          // where a jump from the increment before has landed
 };
 
-template <>
-struct Words<IncrementKind> {
-  static constexpr IncrementKind kDefault = IncrementKind::kRegular;
-  static constexpr std::pair<std::string_view, IncrementKind> kAll[] = {{"start", IncrementKind::kStart},
-                                                                        {"regular", IncrementKind::kRegular},
-                                                                        {"smooth_limit", IncrementKind::kSmoothLimit},
-                                                                        {"corner_limit", IncrementKind::kCornerLimit},
-                                                                        {"contact_event", IncrementKind::kContactEvent},
-                                                                        {"bifurcation", IncrementKind::kBifurcation},
-                                                                        {"sample", IncrementKind::kSample},
-                                                                        {"onset", IncrementKind::kOnset},
-                                                                        {"jump", IncrementKind::kJump}};
-};
+constexpr auto WordsOf(IncrementKind) {
+  return WordList("start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation", "sample", "onset",
+                  "jump");
+}
 
 // Of an increment.
 struct StabilityRecord {
