@@ -21,7 +21,7 @@ double GrowthOf(const TraceRequest& request) {
 TraceRequest Chain(int nodes) {
   TraceRequest request;
   Scene& scene = request.scene;
-  scene.nodes.push_back({"n0", 0.0, 0.0, true, true, false});
+  scene.nodes.push_back({"n0", 0.0, 0.0, true, true});
   for (int i = 1; i <= nodes; ++i) {
     scene.nodes.push_back({"n" + std::to_string(i), 1.0 * i, 0.0, false, false, false});
     scene.bars.push_back({{scene.nodes[static_cast<std::size_t>(i) - 1].name, scene.nodes.back().name}, 1.0, 0.0});

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/path/trace.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -22,21 +22,13 @@ TraceRequest Box(double width, double height, double friction) {
   Scene& scene = request.scene;
   scene.name = "box";
   scene.bodies = {{"box", 0.0, height}};
-  scene.nodes = {{"a", -0.5 * width, 0.0}, {"b", 0.5 * width, 0.0}};
-  for (Node& node : scene.nodes) node.body = "box";
+  scene.nodes = {NodeOf("box", "a", -0.5 * width, 0.0), NodeOf("box", "b", 0.5 * width, 0.0)};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   scene.contacts = {{"a", "floor"}, {"b", "floor"}};
-  Load weight, push;
-  weight.body = push.body = "box";
-  weight.fy = -1.0;
-  weight.constant = true;
-  push.fx = 1.0;
-  scene.loads = {weight, push};
+  scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("box", 1.0, 0.0)};
   request.options.max_increments = 400;
   return request;
 }
-
-double LargestLoadOf(const TracedPath& path) { return path.increments[LargestLoad(path)].load_factor; }
 
 // Pushed at the height z, a box slides at mu W where mu < b / (2 z), and tips at W b / (2 z) otherwise.
 TEST(Bodies, ABoxSlidesOrTips) {
@@ -44,22 +36,19 @@ TEST(Bodies, ABoxSlidesOrTips) {
     for (const double width : {0.5, 1.0, 3.0}) {
       SCOPED_TRACE(testing::Message() << "mu " << friction << ", width " << width);
       const double height = 1.0, tips = width / (2.0 * height);
-      const TracedPath path = TraceIncrements(Box(width, height, friction));
+      const TracedPath path = TraceVerified(Box(width, height, friction));
       ASSERT_FALSE(path.increments.empty()) << path.result.message;
-      EXPECT_NEAR(LargestLoadOf(path), std::min(friction, tips), kExact) << path.result.message;
-      ExpectNoFindings(path);
+      EXPECT_NEAR(LargestLoadFactor(path), std::min(friction, tips), kExact) << path.result.message;
     }
 }
 
 // About the edge b a moment tips the box at M = W (b cos t - h sin t) / 2, t its turn, 2 z = h the height.
 TEST(Bodies, ABoxTipsByAMoment) {
   TraceRequest request = Box(1.0, 0.8, 0.9);
-  request.scene.loads[1].fx = 0.0;
-  request.scene.loads[1].moment = -1.0;
+  request.scene.loads[1] = LoadOnBody("box", 0.0, 0.0, false, -1.0);
   request.options.stop = {{"box.rotation", "<", -0.5}};
-  const TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  EXPECT_NEAR(LargestLoadOf(path), 0.5, kExact);
+  const TracedPath path = TraceProved(request);
+  EXPECT_NEAR(LargestLoadFactor(path), 0.5, kExact);
   int tipped = 0;
   for (const Increment& increment : path.increments) {
     const double t = -increment.rotations.back();
@@ -75,7 +64,6 @@ TEST(Bodies, ABoxTipsByAMoment) {
     ++tipped;
   }
   EXPECT_GT(tipped, 3);
-  ExpectNoFindings(path);
 }
 
 // A ladder at the angle a to the floor holds its weight while tan a >= (1 - mu_f mu_w) / (2 mu_f).
@@ -88,25 +76,19 @@ TEST(Bodies, ALadderHoldsOrSlides) {
         const double angle = critical + beside, x = std::cos(angle), y = std::sin(angle);
         TraceRequest request;
         Scene& scene = request.scene;
-        scene.name = "ladder";
         scene.bodies = {{"ladder", 0.5 * x, 0.5 * y}};
-        scene.nodes = {{"foot", 0.0, 0.0}, {"top", x, y}};
-        for (Node& node : scene.nodes) node.body = "ladder";
+        scene.nodes = {NodeOf("ladder", "foot", 0.0, 0.0), NodeOf("ladder", "top", x, y)};
         scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, floor},
                            {"wall", ObstacleShape::kHalfPlane, x, 0.0, -1.0, 0.0, wall}};
         scene.contacts = {{"foot", "floor"}, {"top", "wall"}};
-        Load weight;
-        weight.body = "ladder";
-        weight.fy = -1.0;
-        scene.loads = {weight};
+        scene.loads = {LoadOnBody("ladder", 0.0, -1.0)};
         request.options.stop = {{"load_factor", ">", 2.0}};
-        const TracedPath path = TraceIncrements(request);
+        const TracedPath path = TraceVerified(request);
         const double reached = path.increments.empty() ? 0.0 : path.increments.back().load_factor;
         if (beside > 0.0)
           EXPECT_NEAR(reached, 2.0, kExact) << path.result.message;
         else
           EXPECT_LT(reached, kExact) << path.result.message;
-        ExpectNoFindings(path);
       }
     }
 }
@@ -125,20 +107,18 @@ TEST(Bodies, LeastReactionsWhereEquilibriumDoesNotTellThem) {
       double squares = 0.0;
       for (const double foot : feet) {
         const std::string name = "foot" + std::to_string(scene.nodes.size());
-        scene.nodes.push_back({name, size * foot, 0.0, false, false, false, "box"});
+        scene.nodes.push_back(NodeOf("box", name, size * foot, 0.0));
         scene.contacts.push_back({name, "floor"});
         squares += foot * foot;
       }
       request.options.stop = {{"load_factor", ">", 0.1}};  // H, and M = -H size
-      const TracedPath path = TraceIncrements(request);
-      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      const TracedPath path = TraceProved(request);
       const Increment& last = path.increments.back();
       const double push = last.load_factor, count = static_cast<double>(feet.size());
       for (std::size_t i = 0; i < feet.size(); ++i) {
         EXPECT_NEAR(last.contacts[i].rn, 1.0 / count + push * feet[i] / squares, kLeast) << i;
         EXPECT_NEAR(last.contacts[i].rt, -push / count, kLeast) << i;
       }
-      ExpectNoFindings(path);
     }
 }
 
@@ -150,7 +130,6 @@ TEST(Bodies, ADiscIsHeldByFriction) {
       SCOPED_TRACE(testing::Message() << "mu " << friction << ", size " << size);
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.name = "held_disc";
       scene.bodies = {{"disc", 0.0, 0.0}};
       scene.nodes = {{"left", -size, 0.0, false, true}, {"right", size, 0.0, false, true}};
       for (const auto& [name, x] : {std::pair("l", -3.0 * size), std::pair("r", 3.0 * size)})
@@ -158,18 +137,13 @@ TEST(Bodies, ADiscIsHeldByFriction) {
       constexpr double kEA = 5.0, kPress = 0.5;  // N: EA (l0 / l - 1) of bars of the length l
       scene.bars = {{{"l", "left"}, kEA, 2.0 * size / (1.0 - kPress / kEA)},
                     {{"right", "r"}, kEA, 2.0 * size / (1.0 - kPress / kEA)}};
-      scene.obstacles = {{"rim", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, friction, size}};
-      scene.obstacles[0].body = "disc";
+      scene.obstacles = {Circle("rim", 0.0, 0.0, size, friction, "disc")};
       scene.contacts = {{"left", "rim"}, {"right", "rim"}};
-      Load weight;
-      weight.body = "disc";
-      weight.fy = -1.0;
-      scene.loads = {weight};
+      scene.loads = {LoadOnBody("disc", 0.0, -1.0)};
       request.options.max_increments = 60;
-      const TracedPath path = TraceIncrements(request);
+      const TracedPath path = TraceVerified(request);
       ASSERT_FALSE(path.increments.empty()) << path.result.message;
-      EXPECT_NEAR(LargestLoadOf(path), 2.0 * friction * kPress, kExact) << path.result.message;
-      ExpectNoFindings(path);
+      EXPECT_NEAR(LargestLoadFactor(path), 2.0 * friction * kPress, kExact) << path.result.message;
     }
 }
 
@@ -187,11 +161,7 @@ TraceRequest Clamped(bool rigid) {
   if (rigid) {
     scene.bodies = {{"block", 0.25, 0.3}};
     for (std::size_t i = 1; i < 5; ++i) scene.nodes[i].body = "block";
-    Load load;
-    load.body = "block";
-    load.fy = -0.4;
-    load.fx = 0.1;
-    scene.loads = {load};
+    scene.loads = {LoadOnBody("block", 0.1, -0.4)};
   } else {
     scene.nodes.push_back({"block", 0.25, 0.3});
     constexpr double kStiff = 1e6;
@@ -221,9 +191,7 @@ TEST(Bodies, AreTheSameInOtherWords) {
   TraceRequest request = Clamped(true);
   request.options.stop = {{"load_factor", ">", 0.7}};
   const TracedPath path = TraceIncrements(request);
-  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, 1e-7);
-  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(request))), path, 1e-7);
-  ExpectSamePath(UndoMirror(TraceIncrements(Mirror(request))), path, 1e-7);
+  ExpectSameInOtherWords(request, path, 1e-7);
 }
 
 }  // namespace

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string>
-#include <vector>
 
-#include "contact_path/path/trace.h"
 #include "support/traced_path.h"
 
 namespace contact_path::critical_loads_test {
@@ -59,9 +57,7 @@ TEST(CriticalLoads, AStepMayEndOnABifurcation) {
         const std::string right = "  - {node: head, obstacle: right}";
         const TracedPath path = Column(l, k, right, std::string("at_limit: stop, step: ") + step);
         ASSERT_TRUE(path.result.reached) << path.result.message;
-        const std::vector<Increment> found = IncrementsOfKind(path, IncrementKind::kBifurcation);
-        ASSERT_EQ(found.size(), 1U);
-        EXPECT_NEAR(found[0].load_factor, k / l, 1e-9 * k / l);
+        ExpectNear(LoadsOfKind(path, IncrementKind::kBifurcation), {k / l}, 1e-9 * k / l);
         EXPECT_EQ(path.increments.back().stability.stability, Verdict::kStable);  // of the curve that crosses
         ExpectNoFindings(path);
       }
@@ -255,11 +251,11 @@ options: {at_limit: jump, machine_stiffness: <K>}
 )",
                                       {{"K", K}});
     EXPECT_TRUE(path.result.reached) << path.result.message;
-    const std::vector<Increment> jumps = IncrementsOfKind(path, IncrementKind::kJump);
-    ASSERT_EQ(jumps.size(), 1U);
-    EXPECT_NEAR(std::abs(PositionX(path, jumps[0], "t")), 0.4, 1e-9);
-    EXPECT_NEAR(jumps[0].load_factor, K < 0.5 ? 1.952 : 1.8744, 1e-3);
-    EXPECT_NEAR(jumps[0].jump.energy_released, K < 0.5 ? 0.00714 : 0.00375, 1e-4);
+    ASSERT_EQ(IncrementsOfKind(path, IncrementKind::kJump).size(), 1U);
+    const Increment jump = IncrementsOfKind(path, IncrementKind::kJump)[0];
+    EXPECT_NEAR(std::abs(PositionX(path, jump, "t")), 0.4, 1e-9);
+    EXPECT_NEAR(jump.load_factor, K < 0.5 ? 1.952 : 1.8744, 1e-3);
+    EXPECT_NEAR(jump.jump.energy_released, K < 0.5 ? 0.00714 : 0.00375, 1e-4);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <iomanip>
@@ -54,9 +53,15 @@ constexpr char kFullIncrement[] =
     "1234567,0.5,2,corner_limit,-1,0.25,3,-4.5,0.125,0,0,open,0,8,-2,slip+,16,32,64,256,512,unstable,not_proved,2,1."
     "5\n";
 
-std::string Row(const Increment& increment) {
+std::string Header(const TraceRequest& request) {
   std::ostringstream out;
-  CsvWriter(increment.stage > 0 ? Program() : TwoNodes()).WriteRow(increment, out);
+  CsvWriter(request).WriteHeader(out);
+  return out.str();
+}
+
+std::string Row(const Increment& increment, const TraceRequest& request = TwoNodes()) {
+  std::ostringstream out;
+  CsvWriter(request).WriteRow(increment, out);
   return out.str();
 }
 
@@ -68,9 +73,7 @@ std::vector<std::string> Cells(const std::string& line) {
 }
 
 TEST(CsvHeader, NamesNodesAndContactsInSceneOrder) {
-  std::ostringstream out;
-  CsvWriter(TwoNodes()).WriteHeader(out);
-  EXPECT_EQ(out.str(),
+  EXPECT_EQ(Header(TwoNodes()),
             "index,load_factor,arc_length,kind,x_b,y_b,x_a,y_a,gap_b@wall,rn_b@wall,rt_b@wall,state_b@wall,"
             "gap_b@floor,rn_b@floor,rt_b@floor,state_b@floor,dissipation,strain_energy,equilibrium_residual,"
             "complementarity_residual,solve_time,stability,stability_controlled,unstable_directions,"
@@ -80,14 +83,7 @@ TEST(CsvHeader, NamesNodesAndContactsInSceneOrder) {
 TEST(CsvHeader, HasVerdictsAndJumpsAsTheOptionsSay) {
   const std::size_t columns = Cells(kFullIncrement).size();
   TraceRequest request = TwoNodes();
-  const auto line = [&](bool header) {
-    std::ostringstream out;
-    if (header)
-      CsvWriter(request).WriteHeader(out);
-    else
-      CsvWriter(request).WriteRow(FullIncrement(), out);
-    return Cells(out.str());
-  };
+  const auto line = [&](bool header) { return Cells(header ? Header(request) : Row(FullIncrement(), request)); };
   request.options.at_limit = AtLimit::kJump;
   EXPECT_EQ(line(true).size(), columns + 1);
   EXPECT_EQ(line(false).size(), columns + 1);
@@ -105,20 +101,18 @@ TEST(CsvHeader, HasVerdictsAndJumpsAsTheOptionsSay) {
 
 TEST(CsvRow, HasAllColumnsInTheOrderOfTheHeader) {
   EXPECT_EQ(Row(FullIncrement()), kFullIncrement);
-  std::ostringstream header;
-  CsvWriter(TwoNodes()).WriteHeader(header);
-  EXPECT_EQ(Cells(header.str()).size(), Cells(kFullIncrement).size());
+  EXPECT_EQ(Cells(Header(TwoNodes())).size(), Cells(kFullIncrement).size());
 }
 
 TEST(CsvRow, HasTheStageOfAProgramBehindTheTime) {
-  std::ostringstream header;
-  CsvWriter(Program()).WriteHeader(header);
+  const std::vector<std::string> header = Cells(Header(Program()));
   Increment increment = FullIncrement();
   increment.stage = 2;
-  const std::size_t stage = Cells(header.str()).size() - 5;
-  EXPECT_EQ(Cells(header.str())[stage], "stage");
-  EXPECT_EQ(Cells(Row(increment))[stage], "2");
-  EXPECT_EQ(Cells(header.str()).size(), Cells(Row(increment)).size());
+  const std::vector<std::string> row = Cells(Row(increment, Program()));
+  const std::size_t stage = header.size() - 5;
+  EXPECT_EQ(header[stage], "stage");
+  EXPECT_EQ(row[stage], "2");
+  EXPECT_EQ(header.size(), row.size());
 }
 
 TEST(CsvRow, WithoutContacts) {
@@ -126,9 +120,7 @@ TEST(CsvRow, WithoutContacts) {
   request.scene.contacts.clear();
   Increment increment;
   increment.positions = {1.0, 2.0, 3.0, 4.0};
-  std::ostringstream out;
-  CsvWriter(request).WriteRow(increment, out);
-  EXPECT_EQ(out.str(), "0,0,0,regular,1,2,3,4,0,0,0,0,0,,,-1,-1\n");
+  EXPECT_EQ(Row(increment, request), "0,0,0,regular,1,2,3,4,0,0,0,0,0,,,-1,-1\n");
 }
 
 TEST(CsvRow, NumbersReadBackExactly) {
@@ -148,9 +140,7 @@ TEST(CsvRow, NumbersReadBackExactly) {
   Increment increment;
   increment.positions = numbers;
   increment.load_factor = 2.0 / 3.0;
-  std::ostringstream out;
-  CsvWriter(request).WriteRow(increment, out);
-  const std::vector<std::string> cells = Cells(out.str());
+  const std::vector<std::string> cells = Cells(Row(increment, request));
   EXPECT_EQ(std::strtod(cells[1].c_str(), nullptr), 2.0 / 3.0);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     EXPECT_EQ(std::strtod(cells[4 + i].c_str(), nullptr), numbers[i]) << cells[4 + i];
@@ -159,25 +149,25 @@ TEST(CsvRow, NumbersReadBackExactly) {
 }
 
 TEST(CsvRow, KindsAndStatesHaveTheirWords) {
-  const std::array<std::pair<IncrementKind, const char*>, 9> kinds{{{IncrementKind::kStart, "start"},
-                                                                    {IncrementKind::kRegular, "regular"},
-                                                                    {IncrementKind::kSmoothLimit, "smooth_limit"},
-                                                                    {IncrementKind::kCornerLimit, "corner_limit"},
-                                                                    {IncrementKind::kContactEvent, "contact_event"},
-                                                                    {IncrementKind::kBifurcation, "bifurcation"},
-                                                                    {IncrementKind::kSample, "sample"},
-                                                                    {IncrementKind::kOnset, "onset"},
-                                                                    {IncrementKind::kJump, "jump"}}};
+  const std::pair<IncrementKind, const char*> kinds[] = {{IncrementKind::kStart, "start"},
+                                                         {IncrementKind::kRegular, "regular"},
+                                                         {IncrementKind::kSmoothLimit, "smooth_limit"},
+                                                         {IncrementKind::kCornerLimit, "corner_limit"},
+                                                         {IncrementKind::kContactEvent, "contact_event"},
+                                                         {IncrementKind::kBifurcation, "bifurcation"},
+                                                         {IncrementKind::kSample, "sample"},
+                                                         {IncrementKind::kOnset, "onset"},
+                                                         {IncrementKind::kJump, "jump"}};
   for (const auto& [kind, word] : kinds) {
     Increment increment = FullIncrement();
     increment.kind = kind;
     EXPECT_EQ(Cells(Row(increment))[3], word);
   }
-  const std::array<std::pair<ContactState, const char*>, 5> states{{{ContactState::kOpen, "open"},
-                                                                    {ContactState::kStick, "stick"},
-                                                                    {ContactState::kSlipPlus, "slip+"},
-                                                                    {ContactState::kSlipMinus, "slip-"},
-                                                                    {ContactState::kClosed, "closed"}}};
+  const std::pair<ContactState, const char*> states[] = {{ContactState::kOpen, "open"},
+                                                         {ContactState::kStick, "stick"},
+                                                         {ContactState::kSlipPlus, "slip+"},
+                                                         {ContactState::kSlipMinus, "slip-"},
+                                                         {ContactState::kClosed, "closed"}};
   for (const auto& [state, word] : states) {
     Increment increment = FullIncrement();
     increment.contacts[0].state = state;

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "contact_path/scene/surface.h"
-#include "contact_path/verify/verify_path.h"
 #include "support/curved_obstacles.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 
 namespace contact_path::curved_paths_test {
@@ -20,26 +19,16 @@ const double kPi = std::acos(-1.0);
 constexpr double kSound = 1e-9;  // residuals, of the characteristic force
 constexpr double kExact = 1e-9;  // closed forms
 
-Obstacle Disc(const std::string& name, double x, double y, double radius, double friction) {
-  Obstacle disc;
-  disc.name = name;
-  disc.shape = ObstacleShape::kCircle;
-  disc.px = x;
-  disc.py = y;
-  disc.radius = radius;
-  disc.friction = friction;
-  return disc;
-}
-
 Obstacle Through(ObstacleShape shape, const std::vector<double>& points, double friction) {
   Obstacle curve = CurveThrough(shape, points);
   curve.friction = friction;
   return curve;
 }
 
-void ExpectProved(const TracedPath& path) {
+TracedPath TraceSound(const TraceRequest& request) {
+  TracedPath path = TraceProved(request);
   ExpectSoundIncrements(path, kSound);
-  ExpectNoFindings(path);
+  return path;
 }
 
 // ----- a node on two springs, dragged round a disc -----
@@ -52,7 +41,7 @@ TraceRequest Peg() {
   scene.nodes = {{"p", std::sin(-0.2), std::cos(-0.2), false, false}};
   scene.superelements = {{{"p"}, {1.3, 0.0, 0.0, 0.8}, {0.2, -0.3}}};
   scene.loads = {{"p", 1.0, -0.2, false}};
-  scene.obstacles = {Disc("peg", 0.0, 0.0, 1.0, kFriction)};
+  scene.obstacles = {Circle("peg", 0.0, 0.0, 1.0, kFriction)};
   scene.contacts = {{"p", "peg"}};
   request.options.stop = {{"p.y", "<", -0.1}};
   return request;
@@ -74,9 +63,7 @@ TEST(CurvedPaths, ANodeDraggedRoundAPegHasTheClosedForm) {
   for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kAccurate}) {
     TraceRequest request = Peg();
     request.options.accuracy = accuracy;
-    const TracedPath path = TraceIncrements(request);
-    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    ExpectProved(path);
+    const TracedPath path = TraceSound(request);
     int sliding = 0;
     for (const Increment& increment : path.increments) {
       const double x = increment.positions[0], y = increment.positions[1];
@@ -98,11 +85,10 @@ TEST(CurvedPaths, DissipationOnThePegIsTheIntegralOverTheWay) {
   TraceRequest request = Peg();
   request.options.accuracy = Accuracy::kAccurate;
   const TracedPath path = TraceIncrements(request);
-  const auto slides = [](const Increment& increment) { return increment.contacts[0].state == ContactState::kSlipPlus; };
-  const auto first = std::find_if(path.increments.begin(), path.increments.end(), slides);
-  ASSERT_NE(first, path.increments.begin());
-  ASSERT_NE(first, path.increments.end());
-  const Increment &from = *(first - 1), &to = path.increments.back();
+  const Increment& first = FirstThat(
+      path, [](const Increment& increment) { return increment.contacts[0].state == ContactState::kSlipPlus; });
+  ASSERT_GT(first.index, 0);
+  const Increment &from = path.increments[static_cast<std::size_t>(first.index) - 1], &to = path.increments.back();
   const double begin = std::atan2(from.positions[0], from.positions[1]);
   const double end = std::atan2(to.positions[0], to.positions[1]);
   constexpr int kParts = 2000;
@@ -134,7 +120,7 @@ TraceRequest Rope(int nodes, double wrap) {
   scene.bars.push_back({{name(nodes - 1), "pulled"}, 1e4, 0.0, StrainMeasure::kBiot});
   scene.bars.push_back({{"held", name(0)}, 20.0, 0.0, StrainMeasure::kBiot});
   scene.support_motions = {{"pulled", std::cos(slope), -std::sin(slope)}};
-  scene.obstacles = {Disc("drum", 0.0, 0.0, 1.0, kFriction)};
+  scene.obstacles = {Circle("drum", 0.0, 0.0, 1.0, kFriction)};
   for (int i = 0; i < nodes; ++i) scene.contacts.push_back({name(i), "drum"});
   request.options.stop = {{"load_factor", ">", 2e-4}};
   return request;
@@ -150,9 +136,7 @@ double Gain(const Eigen::Vector2d& behind, const Eigen::Vector2d& node, const Ei
 
 TEST(CurvedPaths, ARopeOverADrumHasTheTensionsOfItsKinks) {
   for (const int nodes : {4, 8}) {
-    const TracedPath path = TraceIncrements(Rope(nodes, kPi));
-    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    ExpectProved(path);
+    const TracedPath path = TraceSound(Rope(nodes, kPi));
     const Increment& last = path.increments.back();
     for (const ContactRecord& contact : last.contacts) EXPECT_EQ(contact.state, ContactState::kSlipPlus);
     const auto place = [&](const Increment& increment, const std::string& node) {
@@ -194,9 +178,7 @@ TEST(CurvedPaths, ABlockOverASineShapedFloorHasTheClosedForm) {
   scene.contacts = {{"block", "curve"}};
   request.options.stop = {{"block.x", ">", 13.0}};
   request.options.max_increments = 5000;
-  const TracedPath path = TraceIncrements(request);
-  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  ExpectProved(path);
+  const TracedPath path = TraceSound(request);
   int sliding = 0;
   for (const Increment& increment : path.increments) {
     if (increment.contacts[0].state != ContactState::kSlipPlus) continue;
@@ -220,9 +202,7 @@ TEST(CurvedPaths, ATurningDrumTakesTheNodeAlongUntilItSlips) {
   scene.obstacle_motions = {{"peg", 0.0, 0.0, -0.5, 0.0, 0.0}};  // clockwise: the node goes to the right
   request.options.stop = {{"load_factor", ">", 40.0}};
   request.options.max_increments = 5000;
-  const TracedPath path = TraceIncrements(request);
-  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  ExpectProved(path);
+  const TracedPath path = TraceSound(request);
   const Increment* slips = nullptr;  // the first increment that does
   for (const Increment& increment : path.increments) {
     const double angle = std::atan2(increment.positions[0], increment.positions[1]);
@@ -252,15 +232,13 @@ TEST(CurvedPaths, AStageBeginsOnADrumThatHasTurned) {
   Scene& scene = request.scene;
   scene.nodes = {{"p", 0.0, 1.0, false, false}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}, {0.0, 0.5}}};
-  scene.obstacles = {Disc("drum", 0.0, 0.0, 1.0, 0.4)};
+  scene.obstacles = {Circle("drum", 0.0, 0.0, 1.0, 0.4)};
   scene.contacts = {{"p", "drum"}};
   request.program.resize(2);
   request.program[0].obstacle_motions = {{"drum", 0.0, 0.0, 9.0, 0.0, 0.0}};
   request.program[1].obstacle_motions = {{"drum", 0.2, -0.1, -0.5, 0.0, 0.0}};
-  const TracedPath path = TraceIncrements(request);
-  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
-    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  const TracedPath path = TraceProved(request);
+  ExpectNoFindings(path);
   std::vector<std::vector<ContactState>> states(2);
   for (const Increment& increment : path.increments) {
     const ContactRecord& contact = increment.contacts[0];
@@ -289,8 +267,7 @@ TEST(CurvedPaths, APressedNodeIsLostAtTheEndOfATable) {
   scene.contacts = {{"p", "curve"}};
   request.options.stop = {{"p.x", ">", 2.0}};
   const TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-  EXPECT_NE(path.result.message.find("p@curve is lost"), std::string::npos) << path.result.message;
+  ExpectEnd(path, EndReason::kPathEnd, "p@curve is lost");
   EXPECT_NEAR(path.increments.back().positions[0], 0.7, kExact);
   EXPECT_NEAR(path.increments.back().load_factor, 0.9, kExact);
 }
@@ -309,9 +286,7 @@ TEST(CurvedPaths, NoForceJumpsWherePatchesMeet) {
   scene.contacts = {{"p", "curve"}};
   request.options.accuracy = Accuracy::kAccurate;
   request.options.stop = {{"p.x", ">", 1.6}};
-  const TracedPath path = TraceIncrements(request);
-  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  ExpectProved(path);
+  const TracedPath path = TraceSound(request);
   const auto surface = MakeSurface(scene.obstacles[0]);
   std::vector<int> met;
   for (const Increment& increment : path.increments) {

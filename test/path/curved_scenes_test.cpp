@@ -171,9 +171,7 @@ TEST(CurvedScenes, SnapHook) {
 // The disc is held most by the tip, which slips off at a limit point.
 TEST(CurvedScenes, FinRay) {
   const TracedPath path = TraceProved(ReadExample("fin_ray"));
-  const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
-  ASSERT_EQ(limits.size(), 1u);
-  EXPECT_NEAR(limits[0].load_factor, 1.7323, 1e-4);
+  ExpectNear(LoadsOfKind(path, IncrementKind::kSmoothLimit), {1.7323}, 1e-4);
   const Obstacle& disc = path.request.scene.obstacles[0];
   double most = 0.0;
   for (const Increment& increment : path.increments) {
@@ -249,15 +247,7 @@ TEST(CurvedScenes, OtherStepsLeadToTheSameEvents) {
       ExpectSameEvents(path, other, kSame);
       const std::vector<const Increment*> others = EventsOf(other);
       ASSERT_EQ(others.size(), events.size());
-      for (std::size_t i = 0; i < events.size(); ++i) {
-        const Increment &a = *events[i], &b = *others[i];
-        for (std::size_t k = 0; k < a.positions.size(); ++k) EXPECT_NEAR(a.positions[k], b.positions[k], kSame) << i;
-        for (std::size_t k = 0; k < a.contacts.size(); ++k) {
-          EXPECT_EQ(a.contacts[k].state, b.contacts[k].state) << i;
-          EXPECT_NEAR(a.contacts[k].rn, b.contacts[k].rn, kSame) << i;
-          EXPECT_NEAR(a.contacts[k].rt, b.contacts[k].rt, kSame) << i;
-        }
-      }
+      for (std::size_t i = 0; i < events.size(); ++i) EXPECT_LE(LargestDifference(*events[i], *others[i]), kSame) << i;
     }
   }
 }
@@ -268,9 +258,7 @@ TEST(JointsOfAFloor, BearManyNodes) {
   for (const int count : {6, 12, 13, 14}) {
     SCOPED_TRACE(count);
     TraceRequest request;
-    Obstacle floor;
-    floor.name = "floor";
-    floor.shape = ObstacleShape::kPolyline;
+    Obstacle floor{"floor", ObstacleShape::kPolyline};
     for (int i = 0; i < count + 2; ++i) floor.points.insert(floor.points.end(), {static_cast<double>(i), 0.0});
     request.scene.obstacles = {floor};
     request.program.resize(2);
@@ -285,7 +273,6 @@ TEST(JointsOfAFloor, BearManyNodes) {
       request.program[1].loads.push_back({foot, 0.0, i % 2 == 0 ? 0.5 : -0.5});
     }
     const TracedPath path = TraceProved(request);
-    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (int i = 0; i < count; ++i)
       EXPECT_NEAR(path.increments.back().contacts[static_cast<std::size_t>(i)].rn, i % 2 == 0 ? 0.0 : 2.0, 1e-14) << i;
   }

@@ -6,7 +6,6 @@
 
 #include "contact_path/path/csv.h"
 #include "contact_path/path/mpec_method.h"
-#include "contact_path/path/trace.h"
 #include "support/traced_path.h"
 
 namespace contact_path::determinism_test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/path/trace.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 
 namespace contact_path::diagnosis_test {
@@ -14,11 +14,7 @@ namespace {
 Scene TwoBars() {
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 2.0, 0.0, false, false}, {"c", 2.0, 1.0, false, false}};
-  Bar first, second;
-  first.nodes = {"a", "b"};
-  second.nodes = {"b", "c"};
-  first.EA = second.EA = 1.0;
-  scene.bars = {first, second};
+  scene.bars = {{{"a", "b"}, 1.0}, {{"b", "c"}, 1.0}};
   return scene;
 }
 
@@ -35,13 +31,9 @@ TEST(CollapsedPart, NamesTheOneThatHasShrunkMost) {
 TEST(CollapsedPart, NamesTheSpanOfATendon) {
   TraceRequest request;
   Scene& scene = request.scene;
-  scene.name = "pulled_together";
   scene.nodes = {{"a", -1.0, 0.0}, {"b", 1.0, 0.0}, {"c", 3.0, 0.0, true, true}, {"d", -3.0, 0.0, true, true}};
   scene.superelements = {{{"a"}, {1.0, 0.0, 0.0, 1.0}}, {{"b"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.tendons.resize(1);
-  scene.tendons[0].name = "cord";
-  scene.tendons[0].nodes = {"d", "a", "b", "c"};
-  scene.tendons[0].EA = 10.0;
+  scene.tendons = {{"cord", {"d", "a", "b", "c"}, 10.0}};
   scene.loads = {{"a", 1.0, 0.0}, {"b", -1.0, 0.0}};
   request.options.stop = {{"load_factor", ">", 10.0}};
   const TracedPath path = TraceIncrements(request);
@@ -96,22 +88,13 @@ struct Pressed {
 };
 
 Obstacle Table(double fillet) {
-  Obstacle table;
-  table.name = "table";
-  table.shape = ObstacleShape::kPolyline;
+  Obstacle table{"table", ObstacleShape::kPolyline};
   table.points = {-1.0, 0.0, 0.2, 0.0, 0.2, -1.0};
   table.fillet = fillet;
   return table;
 }
 
-Obstacle Disc(double radius) {
-  Obstacle disc;
-  disc.name = "disc";
-  disc.shape = ObstacleShape::kCircle;
-  disc.py = -radius;
-  disc.radius = radius;
-  return disc;
-}
+Obstacle Disc(double radius) { return Circle("disc", 0.0, -radius, radius, 0.0); }
 
 // The fillet takes its radius off of the edge, and begins there.
 TEST(CurveTooSharp, NamesTheContactWhereTheCurveBegins) {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "contact_path/path/sentences.h"
-#include "contact_path/path/trace.h"
 #include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
@@ -73,16 +72,10 @@ TraceRequest Lowered(double down) {
       {"a", 0.0, 3.0, true, true}, {"b", 0.0, 2.0, true}, {"c", 1.0, 1.0, true, true}, {"d", 2.0, 1.1, true, true}};
   request.program = {{"down", {}, {{"a", 0.0, -down}}, {}, 0.0}};
   for (const char* const end : {"b", "c", "d"}) {
-    Bar bar;
-    bar.nodes = {"a", end};
-    bar.EA = 1.0;
-    scene.bars.push_back(bar);
+    scene.bars.push_back({{"a", end}, 1.0});
   }
   for (const char* const node : {"c", "d"}) request.program[0].support_motions.push_back({node, 0.0, -down});
-  Obstacle floor;
-  floor.name = "floor";
-  floor.ny = 1.0;
-  scene.obstacles = {floor};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0}};
   scene.contacts = {{"b", "floor"}};
   return request;
 }

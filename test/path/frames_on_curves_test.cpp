@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "support/beams.h"
+#include "support/parts.h"
 #include "support/random.h"
 #include "support/seeds.h"
 #include "support/traced_path.h"
@@ -18,29 +20,14 @@ const unsigned kSeeds = Seeds(100);
 constexpr int kMostIncrements = 1500;
 constexpr double kPi = 3.14159265358979323846;
 
-Beam Segment(const std::string& name, const std::string& first, const std::string& second, double EA, int segments,
-             double angle) {
-  Beam beam;
-  beam.name = name;
-  beam.nodes = {first, second};
-  beam.EA = EA;
-  beam.EI = 1.0;
-  beam.segments = segments;
-  beam.angle = angle;
-  return beam;
-}
-
 // A disc, or a polygon with fillets, or a closed spline.
 Obstacle Indenter(Random* random, double x, double y) {
   Obstacle obstacle;
   obstacle.name = "o";
   obstacle.friction = random->Number(0.0, 1.0) < 0.3 ? 0.0 : random->Number(0.1, 0.8);
   if (random->Number(0.0, 1.0) < 0.3) {
-    obstacle.shape = ObstacleShape::kCircle;
-    obstacle.px = x;
-    obstacle.py = y;
-    obstacle.radius = random->Number(0.08, 0.3);
-    return obstacle;
+    const double radius = random->Number(0.08, 0.3);
+    return Circle("o", x, y, radius, obstacle.friction);
   }
   obstacle.shape = random->Number(0.0, 1.0) < 0.5 ? ObstacleShape::kPolyline : ObstacleShape::kSpline;
   obstacle.closed = true;
@@ -69,22 +56,18 @@ TraceRequest RandomFrame(unsigned seed) {
       arch ? Node{"c", random.Number(-0.2, 0.2), random.Number(0.2, 0.6)} : Node{"c", random.Number(-0.1, 0.1), 1.0};
   scene.nodes = {a, c, b};
   const auto bend = [&] { return arch ? random.Number(-0.6, 0.6) : 0.0; };
-  scene.beams = {Segment("left", "a", "c", EA, segments, bend()), Segment("right", "c", "b", EA, segments, bend())};
-  Group chain;
-  chain.name = "chain";
+  scene.beams = {Between("left", "a", "c", EA, 1.0, segments, bend()),
+                 Between("right", "c", "b", EA, 1.0, segments, bend())};
+  Group chain{"chain", {}};
   for (const char* beam : {"left", "right"})
     for (int i = 1; i < segments && (arch || beam[0] == 'r'); ++i)
       chain.nodes.push_back(std::string(beam) + "/" + std::to_string(i));
   scene.groups = {chain};
   scene.obstacles = {arch ? Indenter(&random, random.Number(-0.4, 0.4), random.Number(1.0, 1.2))
                           : Indenter(&random, random.Number(0.1, 0.7), random.Number(1.5, 1.9))};
-  ContactCandidate contact;
-  contact.group = "chain";
-  contact.obstacle = "o";
-  scene.contacts = {contact};
-  Stage drive;
-  drive.obstacle_motions = {{"o", random.Number(-0.7, 0.7), random.Number(-1.2, -0.6)}};
-  request.program = {drive};
+  scene.contacts = {{"", "o", "chain"}};
+  request.program.resize(1);
+  request.program[0].obstacle_motions = {{"o", random.Number(-0.7, 0.7), random.Number(-1.2, -0.6)}};
   request.options.max_increments = kMostIncrements;
   return request;
 }

@@ -57,8 +57,7 @@ TEST(FreeMotion, TellsTheGapAtWhichTheCurvePasses) {
             "nodes p, q move freely; the nearest candidate is open: p@lower, gap 0.025 (the smooth curve of surface "
             "lower passes 0.025 from its node l1): is a contact or a support missing?");
   const TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-  EXPECT_NE(path.result.message.find(Question(request)), std::string::npos) << path.result.message;
+  ExpectEnd(path, EndReason::kPathEnd, Question(request));
   scene.nodes[3].y = 0.475;
   EXPECT_EQ(Question(request),
             "nodes p, q move freely; the nearest candidate is open: p@lower, gap 0.5: is a contact or a support "
@@ -71,13 +70,8 @@ TEST(FreeMotion, AsksForTheFrictionThoughTheFirstContactCannotSlide) {
   Scene& scene = request.scene;
   scene.nodes.push_back({"post", 3.0, 0.0, true, false});
   scene.nodes.push_back({"wall", 4.0, 0.0, true, true});
-  Bar bar;
-  bar.nodes = {"post", "wall"};
-  bar.EA = 1.0;
-  scene.bars.push_back(bar);
-  ContactCandidate contact = scene.contacts.front();
-  contact.node = "post";
-  scene.contacts.insert(scene.contacts.begin(), contact);
+  scene.bars.push_back({{"post", "wall"}, 1.0});
+  scene.contacts.insert(scene.contacts.begin(), {"post", "floor"});
   EXPECT_EQ(
       Question(request),
       "nodes b, post move freely; post@floor, b@floor touch: does the normal of floor point to the side where the "
@@ -91,10 +85,7 @@ TEST(FreeMotion, ListsFiveNodesAndCountsTheRest) {
   for (int i = 0; i < 7; ++i) {
     const std::string name = "link" + std::to_string(i);
     request.scene.nodes.push_back({name, -2.0 - i, 0.3 * (i % 2), false, false});
-    Bar bar;
-    bar.nodes = {before, name};
-    bar.EA = 1.0;
-    request.scene.bars.push_back(bar);
+    request.scene.bars.push_back({{before, name}, 1.0});
     before = name;
   }
   EXPECT_EQ(Question(request),
@@ -109,8 +100,7 @@ TEST(FreeMotion, IsToldWhereThePathEndsAtItsStart) {
   hanging.scene.nodes[0].fixed_x = hanging.scene.nodes[0].fixed_y = false;
   for (const TraceRequest& request : {reversed, forgotten, hanging}) {
     const TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-    EXPECT_NE(path.result.message.find(Question(request)), std::string::npos) << path.result.message;
+    ExpectEnd(path, EndReason::kPathEnd, Question(request));
   }
 }
 

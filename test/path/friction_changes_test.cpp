@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include "contact_path/path/trace.h"
 #include "contact_path/scene/validate.h"
 #include "support/parts.h"
 #include "support/traced_path.h"
@@ -20,23 +18,8 @@ constexpr double kExact = 1e-9;
 constexpr double kGives = 2e-7;   // contacts of bodies give way by 1e-8 of their forces
 constexpr double kLeft = 1.1e-6;  // of the friction, where the path ends
 
-Load OnNode(const std::string& node, double fx, double fy, bool constant) {
-  Load load;
-  load.node = node;
-  load.fx = fx;
-  load.fy = fy;
-  load.constant = constant;
-  return load;
-}
-
 Obstacle HalfPlane(const std::string& name, double nx, double ny, double friction) {
   return {name, ObstacleShape::kHalfPlane, 0.0, 0.0, nx, ny, friction};
-}
-
-Node OfBody(const std::string& name, double x, double y, const std::string& body) {
-  Node node{name, x, y};
-  node.body = body;
-  return node;
 }
 
 // Units of length and force, and of the load factor.
@@ -57,13 +40,9 @@ TraceRequest Slider(const Units& units, double friction, double rate) {
   scene.superelements = {{{"b"}, {k, 0.0, 0.0, k}}};
   scene.obstacles = {HalfPlane("floor", 0.0, 1.0, friction)};
   scene.contacts = {{"b", "floor"}};
-  scene.loads = {OnNode("b", 0.0, -kPress * units.force, true)};
+  scene.loads = {{"b", 0.0, -kPress * units.force, true}};
   scene.friction_changes = {{"floor", rate / units.load_factor}};
   return request;
-}
-
-std::string EndOf(const TracedPath& path) {
-  return std::string(ToString(path.result.reason)) + ": " + path.result.message;
 }
 
 // The floor moves by L per load factor and takes the node along until k s = mu(s) N; then the node slides, with the
@@ -82,7 +61,6 @@ TEST(FrictionChanges, ASlidingNodeBearsWhatFrictionIs) {
           request.options.friction_law = law;
           request.options.stop = {{"load_factor", ">", 1.2 * units.load_factor}};
           const TracedPath path = TraceProved(mirrored ? Mirror(request) : request);
-          EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << EndOf(path);
           const double grips = kFriction * kPress / (kSpring - rate * kPress);  // until there
           const double slides = kPress * (1.0 - rate * kPress / kSpring);
           bool slid = false, grip = false;
@@ -116,13 +94,9 @@ TEST(FrictionChanges, ThePathEndsWhereFrictionIsGone) {
         TraceRequest request = Slider(units, 0.4, -0.5 * side);
         request.options.direction = side;
         if (floor_moves > 0.0) request.scene.obstacle_motions = {{"floor", units.length / units.load_factor, 0.0}};
-        const TracedPath path = TraceIncrements(request);
-        ExpectNoFindings(path);
-        EXPECT_EQ(path.result.reason, EndReason::kPathEnd) << EndOf(path);
+        const TracedPath path =
+            TraceProved(request, EndReason::kPathEnd, "the friction of obstacle floor falls to 0 at load factor ");
         EXPECT_FALSE(path.result.reached);
-        EXPECT_NE(path.result.message.find("the friction of obstacle floor falls to 0 at load factor "),
-                  std::string::npos)
-            << EndOf(path);
         const Increment& last = path.increments.back();
         EXPECT_NEAR(last.load_factor * side / units.load_factor, 0.8, kLeft);
         EXPECT_NEAR(last.contacts[0].rt / units.force, 0.0, 3.0 * kLeft);
@@ -137,7 +111,6 @@ TEST(FrictionChanges, TheForceOnRecordIsTheOneWatched) {
   request.scene.obstacle_motions = {{"floor", 1.0, 0.0}};
   request.options.stop = {{"b@floor.rt", ">", 1.1}};
   const TracedPath path = TraceProved(request);
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << EndOf(path);
   EXPECT_NEAR(path.increments.back().contacts[0].rt, 1.1, kExact);
   EXPECT_NEAR(path.increments.back().load_factor, (1.1 / kPress - 0.4) / 0.3, kExact);
 }
@@ -153,13 +126,12 @@ TEST(FrictionChanges, StagesGoOnFromEachOther) {
       request.scene.friction_changes.clear();
       if (own) request.scene.contacts[0].friction = kFriction;
       request.program.resize(4);
-      request.program[0].loads = {OnNode("b", kPush * units.force, 0.0, false)};
+      request.program[0].loads = {{"b", kPush * units.force, 0.0, false}};
       request.program[1].friction_changes = {{"floor", -0.3 / units.load_factor}};
       request.program[1].target = units.load_factor;
       request.program[2].friction_changes = {{"floor", -0.1}};
       request.program[3].unload = true;
       const TracedPath path = TraceProved(request);
-      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << EndOf(path);
       for (const Increment& increment : path.increments) {
         const double s = increment.load_factor / (increment.stage == 2 ? units.load_factor : 1.0);
         const double mu = increment.stage == 1   ? kFriction
@@ -184,9 +156,7 @@ TEST(FrictionChanges, AStageDoesNotGoBeyondItsFriction) {
   request.program.resize(2);
   request.program[0].friction_changes = {{"floor", -0.4}};
   request.program[1].friction_changes = {{"floor", -0.2}};
-  const TracedPath path = TraceIncrements(request);
-  ExpectNoFindings(path);
-  EXPECT_EQ(path.result.reason, EndReason::kPathEnd) << EndOf(path);
+  const TracedPath path = TraceProved(request, EndReason::kPathEnd);
   EXPECT_EQ(path.increments.back().stage, 2);
   EXPECT_NEAR(path.increments.back().load_factor, 0.5, kLeft);
 }
@@ -198,22 +168,11 @@ TEST(FrictionChanges, APathIsResumed) {
   request.options.stop = {{"load_factor", ">", 1.0}};
   const TracedPath path = TraceProved(request);
   for (const std::size_t kept : {std::size_t{3}, path.increments.size() - 2}) {
-    TracedPath resumed{request, {}, {}};
-    TraceControl control;
-    control.on_increment = [&](const Increment& increment) { resumed.increments.push_back(increment); };
-    const std::vector<Increment> some(path.increments.begin(),
-                                      path.increments.begin() + static_cast<std::ptrdiff_t>(kept));
-    resumed.result = ResumeTrace(request, some, control);
+    const TracedPath resumed = ResumeAfter(kept, path);
     ExpectSameEvents(resumed, path, kExact);
     EXPECT_NEAR(resumed.increments.back().dissipation, path.increments.back().dissipation, kExact);
     EXPECT_NEAR(resumed.increments.back().contacts[0].rt, path.increments.back().contacts[0].rt, kExact);
   }
-}
-
-double LargestLoadFactor(const TracedPath& path) {
-  double largest = 0.0;
-  for (const Increment& increment : path.increments) largest = std::max(largest, increment.load_factor);
-  return largest;
 }
 
 // A box under its weight slides down a slope where mu = tan(slope).
@@ -229,22 +188,19 @@ TEST(FrictionChanges, ABoxSlidesWhereFrictionIsTheSlope) {
         };
         TraceRequest request;
         Scene& scene = request.scene;
-        scene.name = "box_on_slope";
         const auto [x, y] = at(0.0, 0.1);
         scene.bodies = {{"box", x, y}};
         for (const auto& [name, along] : {std::pair("back", -1.0), std::pair("front", 1.0)}) {
           const auto [px, py] = at(along, 0.0);
-          scene.nodes.push_back(OfBody(name, px, py, "box"));
+          scene.nodes.push_back(NodeOf("box", name, px, py));
           scene.contacts.push_back({name, "slope"});
         }
         scene.obstacles = {HalfPlane("slope", -s, c, 1.0)};
         scene.loads = {LoadOnBody("box", 0.0, -units.force, true)};
         scene.friction_changes = {{"slope", -0.5 / units.load_factor}};
         request.options.at_limit = AtLimit::kStop;
-        const TracedPath path = TraceIncrements(mirrored ? Mirror(request) : request);
-        EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << EndOf(path);
+        const TracedPath path = TraceProved(mirrored ? Mirror(request) : request, EndReason::kAtLimit);
         EXPECT_NEAR(LargestLoadFactor(path) / units.load_factor, (1.0 - std::tan(slope)) / 0.5, kGives);
-        ExpectNoFindings(path);
       }
 }
 
@@ -257,20 +213,17 @@ TEST(FrictionChanges, ALadderSlipsWhereTheFloorNoLongerHoldsIt) {
         const double angle = degrees * M_PI / 180.0, x = length * std::cos(angle), y = length * std::sin(angle);
         TraceRequest request;
         Scene& scene = request.scene;
-        scene.name = "ladder";
         scene.bodies = {{"ladder", 0.5 * x, 0.5 * y}};
-        scene.nodes = {OfBody("foot", x, 0.0, "ladder"), OfBody("head", 0.0, y, "ladder")};
+        scene.nodes = {NodeOf("ladder", "foot", x, 0.0), NodeOf("ladder", "head", 0.0, y)};
         scene.obstacles = {HalfPlane("floor", 0.0, 1.0, 1.0), HalfPlane("wall", 1.0, 0.0, of_wall)};
         scene.contacts = {{"foot", "floor"}, {"head", "wall"}};
         scene.loads = {LoadOnBody("ladder", 0.0, -1.0, true)};
         scene.friction_changes = {{"floor", -1.0}};
         request.options.at_limit = AtLimit::kStop;
         request.options.record = {"inner"};
-        const TracedPath path = TraceIncrements(request);
-        EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << EndOf(path);
+        const TracedPath path = TraceProved(request, EndReason::kAtLimit);
         const double critical = 1.0 / (2.0 * std::tan(angle) + of_wall);
         EXPECT_NEAR(1.0 - LargestLoadFactor(path), critical, kGives);
-        ExpectNoFindings(path);
       }
 }
 
@@ -281,27 +234,20 @@ TEST(FrictionChanges, ADiscSlipsOutOfAGrip) {
       SCOPED_TRACE(testing::Message() << "length " << units.length << ", weight " << weight);
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.name = "grip";
       scene.bodies = {{"disc", 0.0, 0.0}};
-      Obstacle rim{"rim", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, 0.9, units.length};
-      rim.body = "disc";
-      scene.obstacles = {rim};
+      scene.obstacles = {Circle("rim", 0.0, 0.0, units.length, 0.9, "disc")};
       const double k = 4.0 * units.force / units.length;
       for (const auto& [name, side] : {std::pair("left", -1.0), std::pair("right", 1.0)}) {
-        Node finger{name, side * units.length, 0.0};
-        finger.fixed_y = true;
-        scene.nodes.push_back(finger);
+        scene.nodes.push_back({name, side * units.length, 0.0, false, true});
         scene.superelements.push_back({{name}, {k, 0.0, 0.0, k}});
         scene.contacts.push_back({name, "rim"});
-        scene.loads.push_back(OnNode(name, -side * units.force, 0.0, true));
+        scene.loads.push_back({name, -side * units.force, 0.0, true});
       }
       scene.loads.push_back(LoadOnBody("disc", 0.0, -weight * units.force, true));
       scene.friction_changes = {{"rim", -0.4 / units.load_factor}};
       request.options.at_limit = AtLimit::kStop;
-      const TracedPath path = TraceIncrements(request);
-      EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << EndOf(path);
+      const TracedPath path = TraceProved(request, EndReason::kAtLimit);
       EXPECT_NEAR(LargestLoadFactor(path) / units.load_factor, (0.9 - 0.5 * weight) / 0.4, kGives);
-      ExpectNoFindings(path);
     }
 }
 
@@ -311,22 +257,16 @@ TEST(FrictionChanges, ARollingDiscSlips) {
     SCOPED_TRACE(radius);
     TraceRequest request;
     Scene& scene = request.scene;
-    scene.name = "rolling_disc";
     scene.bodies = {{"disc", 0.0, radius}};
-    Obstacle rim{"rim", ObstacleShape::kCircle, 0.0, radius, 0.0, 0.0, 0.0, radius};
-    rim.body = "disc";
-    scene.nodes = {OfBody("hub", 0.0, radius, "disc")};
+    scene.nodes = {NodeOf("disc", "hub", 0.0, radius)};
     scene.superelements = {{{"hub"}, {2.0 / radius, 0.0, 0.0, 0.0}}};
-    scene.obstacles = {rim, HalfPlane("floor", 0.0, 1.0, 0.5)};
-    ContactCandidate rolls;
-    rolls.obstacles = {"rim", "floor"};
-    scene.contacts = {rolls};
+    scene.obstacles = {Circle("rim", 0.0, radius, radius, 0.0, "disc"), HalfPlane("floor", 0.0, 1.0, 0.5)};
+    scene.contacts = {Rolls("rim", "floor")};
     scene.loads = {LoadOnBody("disc", 0.0, -1.0, true, -0.2 * radius)};
     scene.friction_changes = {{"floor", -0.25}};
     request.options.max_increments = 60;
-    const TracedPath path = TraceIncrements(request);
-    EXPECT_NEAR(LargestLoadFactor(path), 1.2, kGives) << EndOf(path);
-    ExpectNoFindings(path);
+    const TracedPath path = TraceVerified(request);
+    EXPECT_NEAR(LargestLoadFactor(path), 1.2, kGives) << path.result.message;
   }
 }
 
@@ -335,21 +275,17 @@ TEST(FrictionChanges, OnCurves) {
   for (const double rate : {-0.2, 0.3})
     for (const double turn : {0.0, 0.1}) {
       SCOPED_TRACE(testing::Message() << "rate " << rate << ", turn " << turn);
-      TraceRequest request;
-      Scene& scene = request.scene;
-      scene.name = "bowl";
+      Scene scene;
       scene.nodes = {{"b", 0.0, -2.0}, {"pull", 1.5, -2.0, true, true}};
       scene.bars = {{{"b", "pull"}, 2.0}};
       scene.obstacles = {{"bowl", ObstacleShape::kCircle, 0.0, 0.0, 0.0, 0.0, 0.3, 2.0}};
       scene.obstacles[0].inside = true;
       scene.contacts = {{"b", "bowl"}};
-      scene.loads = {OnNode("b", 0.0, -1.0, true)};
+      scene.loads = {{"b", 0.0, -1.0, true}};
       scene.support_motions = {{"pull", 1.0, 0.2}};
       if (turn != 0.0) scene.obstacle_motions = {{"bowl", 0.0, 0.0, turn}};
       scene.friction_changes = {{"bowl", rate}};
-      request.options.stop = {{"load_factor", ">", 1.2}};
-      const TracedPath path = TraceProved(request);
-      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << EndOf(path);
+      const TracedPath path = TraceUntil({"load_factor", ">", 1.2}, scene);
       int slides = 0;
       for (const Increment& increment : path.increments) {
         const ContactRecord& contact = increment.contacts[0];
@@ -387,7 +323,7 @@ TEST(FrictionChanges, WhatIsNotSoundIsRefusedByName) {
       {[](TraceRequest* r) { r->scene.loads.clear(); },
        "scene.loads = []: must have a load that presses a contact where friction alone changes"},
       {[](TraceRequest* r) {
-         r->scene.loads.push_back(OnNode("b", 1.0, 0.0, false));
+         r->scene.loads.push_back({"b", 1.0, 0.0, false});
          r->options.machine_stiffness = 1.0;
        },
        "scene.friction_changes: must be empty where a machine loads the structure"},

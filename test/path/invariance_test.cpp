@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 
 #include "contact_path/verify/verify_path.h"
 #include "support/transformations.h"

@@ -1,9 +1,6 @@
 // Only what the scene requires is modelled: sizes of the problems solved for an increment.
 #include <gtest/gtest.h>
 
-#include <string>
-#include <vector>
-
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
 #include "lattice.h"
@@ -90,7 +87,7 @@ TEST(ModelSize, MpecHasNothingForCandidatesOutOfReachAndNoFrictionWhereThereIsNo
 }
 
 TEST(ModelSize, FarCandidatesChangeNothing) {
-  for (const Method method : {Method::kBranch, Method::kMpec}) {
+  for (const Method method : kMethods) {
     const Increment without = LastIncrement(Wall(Touch::kAllRough, method));
     const Increment with = LastIncrement(Wall(Touch::kAllRough, method, 500));
     EXPECT_EQ(with.contacts.size(), without.contacts.size() + 500U);

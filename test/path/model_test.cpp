@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "support/mixed_scene.h"
 #include "support/reference_cases.h"
 

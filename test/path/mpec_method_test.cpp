@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "contact_path/path/preload.h"
 #include "contact_path/path/work.h"
 #include "support/reference_cases.h"

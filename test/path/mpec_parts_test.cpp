@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/scaling.h"
@@ -24,14 +23,11 @@ constexpr double kTinyForce = 1e-6;
 TracedPath TraceByMpec(TraceRequest request) {
   request.options.method = Method::kMpec;
   request.options.at_limit = AtLimit::kFollow;
-  TracedPath path = TraceIncrements(request);
+  TracedPath path = TraceVerified(request);
   EXPECT_FALSE(path.increments.empty()) << path.result.message;
-  ExpectNoFindings(path);
   for (const Increment& increment : path.increments) EXPECT_LE(increment.residuals.Largest(), 1e-9);
   return path;
 }
-
-double LargestLoadOf(const TracedPath& path) { return path.increments[LargestLoad(path)].load_factor; }
 
 // Each increment is the point of the exact path with the same value of a quantity. cut: how far they may be apart
 // behind a corner, scaled.
@@ -82,18 +78,6 @@ void ExpectPathOfBranch(const TracedPath& path, const std::string& quantity,
 
 double LoadOf(const Increment& increment) { return increment.load_factor; }
 
-Obstacle RimOf(const std::string& body, double x, double y, double radius, double friction) {
-  Obstacle rim;
-  rim.name = "rim_" + body;
-  rim.shape = ObstacleShape::kCircle;
-  rim.px = x;
-  rim.py = y;
-  rim.radius = radius;
-  rim.body = body;
-  rim.friction = friction;
-  return rim;
-}
-
 // A disc of the weight W in a right angle sticks up to M = mu sqrt(2) / (1 + mu^2) W R, and turns in place from there.
 TEST(MpecBodies, ADiscTurnsInARightAngle) {
   for (const double radius : {1e-3, 200.0})
@@ -102,21 +86,17 @@ TEST(MpecBodies, ADiscTurnsInARightAngle) {
       const double y = std::sqrt(2.0) * radius, limit = friction * std::sqrt(2.0) / (1.0 + friction * friction);
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.name = "in_a_right_angle";
       scene.bodies = {{"disc", 0.0, y}};
-      scene.obstacles = {RimOf("disc", 0.0, y, radius, 0.0),
+      scene.obstacles = {Circle("rim", 0.0, y, radius, 0.0, "disc"),
                          {"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 1.0, friction},
                          {"right", ObstacleShape::kHalfPlane, 0.0, 0.0, -1.0, 1.0, friction}};
-      for (const char* on : {"left", "right"}) {
-        scene.contacts.emplace_back();
-        scene.contacts.back().obstacles = {"rim_disc", on};
-      }
+      scene.contacts = {Rolls("rim", "left"), Rolls("rim", "right")};
       scene.loads = {LoadOnBody("disc", 0.0, -weight, true), LoadOnBody("disc", 0.0, 0.0, false, weight * radius)};
       request.options.stop = {{"disc.rotation", ">", 0.3}};
       request.options.step = 0.2;
       const TracedPath path = TraceByMpec(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-      EXPECT_NEAR(LargestLoadOf(path), limit, kGives);
+      EXPECT_NEAR(LargestLoadFactor(path), limit, kGives);
       int turned = 0;
       for (const Increment& increment : path.increments) {
         if (!(increment.rotations.back() > 0.01)) continue;
@@ -135,17 +115,21 @@ TEST(MpecBodies, ABoxSlidesOrTips) {
       SCOPED_TRACE(testing::Message() << "size " << size << ", mu " << friction << ", width " << width);
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.name = "box";
       scene.bodies = {{"box", 0.0, size}};
-      scene.nodes = {{"a", -0.5 * width * size, 0.0}, {"b", 0.5 * width * size, 0.0}};
-      for (Node& node : scene.nodes) node.body = "box";
+      scene.nodes = {NodeOf("box", "a", -0.5 * width * size, 0.0), NodeOf("box", "b", 0.5 * width * size, 0.0)};
       scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
       scene.contacts = {{"a", "floor"}, {"b", "floor"}};
       scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("box", 1.0, 0.0)};
       request.options.max_increments = 12;
       request.options.step = 0.2;
-      EXPECT_NEAR(LargestLoadOf(TraceByMpec(request)), std::min(friction, 0.5 * width), kCorner);
+      EXPECT_NEAR(LargestLoadFactor(TraceByMpec(request)), std::min(friction, 0.5 * width), kCorner);
     }
+}
+
+// As far as the corner, which is cut, at the largest load.
+void ExpectRisingPathOfBranch(TracedPath path) {
+  path.increments.resize(LargestLoad(path));
+  ExpectPathOfBranch(path, "load_factor", LoadOf);
 }
 
 TEST(MpecBodies, AHeldDiscAndALadderHaveThePathsOfBranch) {
@@ -156,10 +140,8 @@ TEST(MpecBodies, AHeldDiscAndALadderHaveThePathsOfBranch) {
     request.options.step = 0.05;
     request.options.max_increments = 40;
     const TracedPath path = TraceByMpec(ChangeUnits(request, length, force));
-    EXPECT_NEAR(LargestLoadOf(path), limit, kCorner * 2.0);
-    TracedPath rising = path;
-    rising.increments.resize(LargestLoad(path));  // the corner is cut
-    ExpectPathOfBranch(rising, "load_factor", LoadOf);
+    EXPECT_NEAR(LargestLoadFactor(path), limit, kCorner * 2.0);
+    ExpectRisingPathOfBranch(path);
   }
 }
 
@@ -168,11 +150,8 @@ TEST(MpecBodies, ThreeDiscsRollApart) {
   request.options.step = 0.5;
   request.options.max_increments = 40;
   const TracedPath path = TraceByMpec(request);
-  const double rolls = 0.4 / (std::tan(M_PI / 12.0) - 0.2) - 1.0;
-  EXPECT_NEAR(LargestLoadOf(path), rolls, 3e-2);
-  TracedPath rising = path;
-  rising.increments.resize(LargestLoad(path));  // the corner is cut
-  ExpectPathOfBranch(rising, "load_factor", LoadOf);
+  EXPECT_NEAR(LargestLoadFactor(path), 0.4 / (std::tan(M_PI / 12.0) - 0.2) - 1.0, 3e-2);
+  ExpectRisingPathOfBranch(path);
 }
 
 // Rods that are pinned to each other and to both ends, with springs at the pins between, carry a load in the middle.
@@ -183,9 +162,8 @@ TraceRequest PinnedChain(double size, double spring) {
   constexpr int kRods = 3;
   for (int i = 0; i <= kRods; ++i) {
     const double x = size * i, y = i == 0 || i == kRods ? 0.0 : -0.2 * size;
-    if (i > 0) scene.nodes.push_back({"e" + std::to_string(i), x, y, false, false, false, "rod" + std::to_string(i)});
-    if (i < kRods)
-      scene.nodes.push_back({"s" + std::to_string(i), x, y, false, false, false, "rod" + std::to_string(i + 1)});
+    if (i > 0) scene.nodes.push_back(NodeOf("rod" + std::to_string(i), "e" + std::to_string(i), x, y));
+    if (i < kRods) scene.nodes.push_back(NodeOf("rod" + std::to_string(i + 1), "s" + std::to_string(i), x, y));
   }
   scene.nodes.push_back({"left", 0.0, 0.0, true, true});
   scene.nodes.push_back({"right", kRods * size, 0.0, false, true});
@@ -231,7 +209,6 @@ TEST(MpecFrictionChanges, ANodeBearsWhatFrictionIs) {
       const double k = kSpring * force / length;
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.name = "slider";
       scene.nodes = {{"b", 0.0, 0.0}};
       scene.superelements = {{{"b"}, {k, 0.0, 0.0, k}}};
       scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, kFriction}};
@@ -266,7 +243,7 @@ TEST(MpecFrictionChanges, ANodeBearsWhatFrictionIs) {
 TEST(MpecFrictionChanges, AStepLadderSlidesApart) {
   const TracedPath path = TraceByMpec(ReadExample("step_ladder"));
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  EXPECT_NEAR(LargestLoadOf(path), 0.8 - 0.66 / 0.76 / 3.0, 2.0 * kCorner);
+  EXPECT_NEAR(LargestLoadFactor(path), 0.8 - 0.66 / 0.76 / 3.0, 2.0 * kCorner);
   int slides = 0;
   for (const Increment& increment : path.increments) {
     if (!Slips(increment.contacts[1].state)) continue;
@@ -283,10 +260,7 @@ TEST(MpecEyes, TheTensionsDifferByTheCapstanFactor) {
   for (const auto& [turn, friction, EA] : {std::tuple(0.5 * M_PI, 0.3, 20.0), {3.0, 0.1, 1e3}, {0.5, 1.0, 20.0}}) {
     SCOPED_TRACE(testing::Message() << "turn " << turn << " friction " << friction << " EA " << EA);
     TraceRequest request = DrawnCord(turn, friction, EA);
-    Stage& let_go = request.program.emplace_back();
-    let_go.name = "let_go";
-    let_go.loads = {{"drawn", -std::cos(turn), std::sin(turn)}};
-    let_go.target = 0.9;
+    request.program.push_back(LoadingStage({{"drawn", -std::cos(turn), std::sin(turn)}}, 0.9));
     request.options.step = 0.05;
     const TracedPath path = TraceByMpec(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;

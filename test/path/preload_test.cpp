@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -16,7 +14,7 @@ namespace {
 constexpr double kRounding = 1e-14;
 
 // A bar of EA 1 along the x axis from the pinned node a to b at (1, 0), on a floor of friction mu.
-Scene Block(double rest_length, double friction) {
+Scene Block(double rest_length, double friction, const std::vector<Load>& constant_loads = {}) {
   Scene scene;
   scene.name = "block";
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
@@ -24,8 +22,11 @@ Scene Block(double rest_length, double friction) {
   scene.loads = {{"b", 1.0, 0.0, false}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   scene.contacts = {{"b", "floor"}};
+  scene.loads.insert(scene.loads.end(), constant_loads.begin(), constant_loads.end());
   return scene;
 }
+
+Model ModelOf(const Scene& scene) { return {scene, CharacteristicScales(scene)}; }
 
 MethodFactory Mpec(double step) {
   return [step](const Model& model, double target) {
@@ -50,6 +51,12 @@ Preload RunPreload(const Scene& scene, double step = 0.2, int max_increments = 2
   return preload;
 }
 
+void ExpectEnd(const Preload& preload, EndReason end, const std::string& text) {
+  EXPECT_FALSE(preload.done);
+  EXPECT_EQ(preload.end.reason, end);
+  EXPECT_NE(EndText(preload.end.causes).find(text), std::string::npos) << EndText(preload.end.causes);
+}
+
 TEST(Preload, NothingToDoWithoutConstantLoadsAndStress) {
   const Scene scene = Block(0.0, 0.5);
   const Model model(scene, CharacteristicScales(scene));
@@ -63,9 +70,7 @@ TEST(Preload, NothingToDoWithoutConstantLoadsAndStress) {
 }
 
 TEST(Preload, ConstantLoadIsCarriedByTheContact) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.1, -2.0, true});
-  const Preload preload = RunPreload(scene);
+  const Preload preload = RunPreload(Block(0.0, 0.5, {{"b", 0.1, -2.0, true}}));
   ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.u[0], 1.0, kRounding);
   EXPECT_NEAR(preload.point.forces[0], 2.0, kRounding);
@@ -74,9 +79,7 @@ TEST(Preload, ConstantLoadIsCarriedByTheContact) {
 }
 
 TEST(Preload, ConstantLoadBeyondTheConeSlides) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.3, -0.4, true});
-  const Preload preload = RunPreload(scene);
+  const Preload preload = RunPreload(Block(0.0, 0.5, {{"b", 0.3, -0.4, true}}));
   ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.forces[0], 0.4, kRounding);
   EXPECT_NEAR(preload.point.forces[1], -0.2, kRounding);
@@ -96,9 +99,7 @@ TEST(Preload, BarReleasedFromItsInitialLengthGoesToItsRestLength) {
 
 // Tension 1/0.8 - 1 = 0.25 in the bar, a block of weight 1 with mu = 0.1: it slides back until the tension is 0.1.
 TEST(Preload, ReleasedBarDragsTheBlockUntilFrictionHoldsIt) {
-  Scene scene = Block(0.8, 0.1);
-  scene.loads.push_back({"b", 0.0, -1.0, true});
-  const Preload preload = RunPreload(scene);
+  const Preload preload = RunPreload(Block(0.8, 0.1, {{"b", 0.0, -1.0, true}}));
   ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.u[0], 0.8 * 1.1, kRounding);
   EXPECT_NEAR(preload.point.forces[0], 1.0, kRounding);
@@ -107,8 +108,7 @@ TEST(Preload, ReleasedBarDragsTheBlockUntilFrictionHoldsIt) {
 }
 
 TEST(Preload, DoesNotDependOnTheStep) {
-  Scene scene = Block(0.8, 0.1);
-  scene.loads.push_back({"b", 0.02, -1.0, true});
+  const Scene scene = Block(0.8, 0.1, {{"b", 0.02, -1.0, true}});
   const Preload coarse = RunPreload(scene, 0.2), fine = RunPreload(scene, 0.04);
   ASSERT_TRUE(coarse.done && fine.done);
   EXPECT_LE(Distance(coarse.point, fine.point), kRounding);
@@ -116,12 +116,8 @@ TEST(Preload, DoesNotDependOnTheStep) {
 }
 
 TEST(Preload, SaysWhenThereAreTooManyIncrements) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.3, -0.4, true});
-  const Preload preload = RunPreload(scene, 0.01, 3);
-  EXPECT_FALSE(preload.done);
-  EXPECT_EQ(preload.end.reason, EndReason::kMaxIncrements);
-  EXPECT_NE(EndText(preload.end.causes).find("constant loads"), std::string::npos) << EndText(preload.end.causes);
+  const Preload preload = RunPreload(Block(0.0, 0.5, {{"b", 0.3, -0.4, true}}), 0.01, 3);
+  ExpectEnd(preload, EndReason::kMaxIncrements, "constant loads");
 }
 
 // Gives what it is told to give.
@@ -141,25 +137,19 @@ class FakeMethod : public PathMethod {
 };
 
 TEST(Preload, EndOfTheMethodIsTheEndOfThePreload) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.0, 1.0, true});
-  const Model model(scene, CharacteristicScales(scene));
+  const Model model = ModelOf(Block(0.0, 0.5, {{"b", 0.0, 1.0, true}}));
   for (const EndReason reason : {EndReason::kCancelled, EndReason::kPathEnd, EndReason::kStepTooSmall}) {
     const Preload preload = TracePreload(model, 100, [&](const Model&, double) {
       Advance advance;
       advance.end = {reason, {{"because"}}};
       return std::make_unique<FakeMethod>(true, advance);
     });
-    EXPECT_FALSE(preload.done);
-    EXPECT_EQ(preload.end.reason, reason);
-    EXPECT_NE(EndText(preload.end.causes).find("because"), std::string::npos) << EndText(preload.end.causes);
+    ExpectEnd(preload, reason, "because");
   }
 }
 
 TEST(Preload, EndsAtALimitPoint) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.0, 1.0, true});
-  const Model model(scene, CharacteristicScales(scene));
+  const Model model = ModelOf(Block(0.0, 0.5, {{"b", 0.0, 1.0, true}}));
   for (const IncrementKind kind : {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit}) {
     Advance advance;
     advance.increment.emplace();
@@ -168,39 +158,27 @@ TEST(Preload, EndsAtALimitPoint) {
     advance.increment->kind = kind;
     const Preload preload =
         TracePreload(model, 100, [&](const Model&, double) { return std::make_unique<FakeMethod>(true, advance); });
-    EXPECT_FALSE(preload.done);
-    EXPECT_EQ(preload.end.reason, EndReason::kPathEnd);
-    EXPECT_NE(EndText(preload.end.causes).find("a limit point at 0.25 of"), std::string::npos)
-        << EndText(preload.end.causes);
+    ExpectEnd(preload, EndReason::kPathEnd, "a limit point at 0.25 of");
   }
 }
 
 TEST(Preload, CanBeCancelled) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.0, 1.0, true});
-  const Model model(scene, CharacteristicScales(scene));
+  const Model model = ModelOf(Block(0.0, 0.5, {{"b", 0.0, 1.0, true}}));
   const Preload preload = TracePreload(
       model, 100, [](const Model&, double) { return std::make_unique<FakeMethod>(true, Advance()); },
       [] { return true; });
-  EXPECT_FALSE(preload.done);
-  EXPECT_EQ(preload.end.reason, EndReason::kCancelled);
+  ExpectEnd(preload, EndReason::kCancelled, "");
 }
 
 TEST(Preload, MethodThatCannotSetOutIsTheEndOfThePath) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.0, 1.0, true});
-  const Model model(scene, CharacteristicScales(scene));
+  const Model model = ModelOf(Block(0.0, 0.5, {{"b", 0.0, 1.0, true}}));
   const Preload preload =
       TracePreload(model, 100, [](const Model&, double) { return std::make_unique<FakeMethod>(false, Advance()); });
-  EXPECT_FALSE(preload.done);
-  EXPECT_EQ(preload.end.reason, EndReason::kPathEnd);
-  EXPECT_NE(EndText(preload.end.causes).find("because"), std::string::npos) << EndText(preload.end.causes);
+  ExpectEnd(preload, EndReason::kPathEnd, "because");
 }
 
 TEST(Preload, TheModelOfTheMethodLoadsWithTheConstantLoadsOnly) {
-  Scene scene = Block(0.0, 0.5);
-  scene.loads.push_back({"b", 0.0, -3.0, true});
-  const Model model(scene, CharacteristicScales(scene));
+  const Model model = ModelOf(Block(0.0, 0.5, {{"b", 0.0, -3.0, true}}));
   bool asked = false;
   TracePreload(model, 1, [&](const Model& of, double) {
     asked = true;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,31 +10,6 @@
 
 namespace contact_path::restored_states_test {
 namespace {
-
-// Without what full_state_every leaves out.
-std::vector<Increment> Thinned(const TracedPath& path, int every) {
-  std::vector<Increment> increments = path.increments;
-  for (Increment& increment : increments)
-    if (increment.kind == IncrementKind::kRegular && increment.index % every != 0) {
-      increment.positions.clear();
-      increment.contacts.clear();
-    }
-  return increments;
-}
-
-double LargestDifference(const Increment& a, const Increment& b) {
-  double worst = 0.0;
-  EXPECT_EQ(a.positions.size(), b.positions.size());
-  for (std::size_t i = 0; i < a.positions.size(); ++i)
-    worst = std::max(worst, std::abs(a.positions[i] - b.positions[i]));
-  EXPECT_EQ(a.contacts.size(), b.contacts.size());
-  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
-    EXPECT_EQ(a.contacts[i].state, b.contacts[i].state);
-    worst = std::max({worst, std::abs(a.contacts[i].gap - b.contacts[i].gap),
-                      std::abs(a.contacts[i].rn - b.contacts[i].rn), std::abs(a.contacts[i].rt - b.contacts[i].rt)});
-  }
-  return worst;
-}
 
 TEST(RestoreStates, OfAllExamples) {
   for (const char* name : {"sliding_bar", "von_mises", "rough_truss", "two_dof_friction", "rigid_stop",

@@ -2,12 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
 namespace contact_path::return_detector_test {
@@ -104,21 +101,12 @@ void ExpectClosed(const TracedPath& path, double tolerance) {
   ASSERT_GT(named, 0) << path.result.message;
   const Increment &first = path.increments.at(static_cast<std::size_t>(named)), &last = path.increments.back();
   ASSERT_LT(first.index, last.index);
-  double worst = std::abs(first.load_factor - last.load_factor);
-  for (std::size_t i = 0; i < first.positions.size(); ++i)
-    worst = std::max(worst, std::abs(first.positions[i] - last.positions[i]));
-  for (std::size_t i = 0; i < first.contacts.size(); ++i) {
-    const ContactRecord &a = first.contacts[i], &b = last.contacts[i];
-    worst = std::max({worst, std::abs(a.rn - b.rn), std::abs(a.rt - b.rt)});
-    EXPECT_EQ(a.state, b.state);
-  }
-  EXPECT_LE(worst, tolerance);
-  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
-    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  EXPECT_LE(LargestDifference(first, last), tolerance);
+  ExpectNoFindings(path);
 }
 
 TEST(ClosedPath, OfTheBarThatGoesRound) {
-  for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate}) {
+  for (const Accuracy accuracy : kPresets) {
     TraceRequest request = RoundAndRound();
     request.options.accuracy = accuracy;
     request.options.max_increments = 4000;

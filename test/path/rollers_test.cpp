@@ -3,11 +3,10 @@
 
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "contact_path/path/trace.h"
 #include "contact_path/scene/validate.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -17,14 +16,9 @@ namespace {
 constexpr double kExact = 1e-9;
 constexpr double kSoft = 1e-7;  // of pieces with friction: what keeps the strains of slack ones even
 
-Tendon TendonThrough(std::vector<std::string> nodes, std::vector<double> radii, std::vector<double> turns, double EA) {
-  Tendon tendon;
-  tendon.name = "rope";
-  tendon.nodes = std::move(nodes);
-  tendon.radii = std::move(radii);
-  tendon.turns = std::move(turns);
-  tendon.EA = EA;
-  return tendon;
+Tendon TendonThrough(const std::vector<std::string>& nodes, const std::vector<double>& radii,
+                     const std::vector<double>& turns, double EA, double friction = 0.0, double rest_length = 0.0) {
+  return {"rope", nodes, EA, rest_length, friction, radii, turns};
 }
 
 // From a hand that goes down on the left over a roller about (0, 1) to a node on a spring of the stiffness 1 on the
@@ -38,8 +32,7 @@ TraceRequest OverARoller(double radius, double EA, double friction, int more) {
                  {"load", radius, 0.0, true, false},
                  {"ground", radius, -1.0, true, true}};
   scene.bars = {{{"load", "ground"}, 1.0}};
-  scene.tendons = {TendonThrough({"hand", "axle", "load"}, {0.0, radius, 0.0}, {0.0, -1.0 - more, 0.0}, EA)};
-  scene.tendons[0].friction = friction;
+  scene.tendons = {TendonThrough({"hand", "axle", "load"}, {0.0, radius, 0.0}, {0.0, -1.0 - more, 0.0}, EA, friction)};
   scene.support_motions = {{"hand", 0.0, -0.5}};
   request.options.stop = {{"load_factor", ">", 1.0}};
   request.options.record = {"sections"};
@@ -52,8 +45,7 @@ TEST(Rollers, FixedOnesHoldByTheAngleThatIsWrapped) {
       for (const int more : {0, 1, 3})
         for (const double EA : {20.0, 1e6}) {
           SCOPED_TRACE(::testing::Message() << radius << ' ' << friction << ' ' << more << ' ' << EA);
-          const TracedPath path = TraceIncrements(OverARoller(radius, EA, friction, more));
-          ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+          const TracedPath path = TraceProved(OverARoller(radius, EA, friction, more));
           const Increment& last = path.increments.back();
           const double factor = std::exp(friction * M_PI * (1 + 2 * more));
           EXPECT_EQ(last.contacts[0].state, ContactState::kSlipMinus);
@@ -61,7 +53,6 @@ TEST(Rollers, FixedOnesHoldByTheAngleThatIsWrapped) {
           EXPECT_NEAR(last.sections[2].N, last.sections[0].N, soft);  // the spring's
           EXPECT_NEAR(last.sections[1].N / factor, last.sections[2].N, soft);
           EXPECT_EQ(last.stability.stability, Verdict::kStable);
-          ExpectNoFindings(path);
         }
 }
 
@@ -72,12 +63,10 @@ TEST(Rollers, WithoutFrictionOrFreeTheTensionIsTheSame) {
         SCOPED_TRACE(::testing::Message() << radius << ' ' << EA);
         TraceRequest request = OverARoller(radius, EA, 0.0, 1);
         request.scene.tendons[0].pulley = pulley;
-        const TracedPath path = TraceIncrements(request);
-        ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+        const TracedPath path = TraceProved(request);
         const double length = 2.0 + 3.0 * M_PI * radius;
         // EA ((length + 0.5 - y) / length - 1) = y
         EXPECT_NEAR(path.increments.back().sections[1].N, 0.5 * EA / (length + EA), kExact);
-        ExpectNoFindings(path);
       }
 }
 
@@ -86,7 +75,6 @@ TEST(Rollers, ATendonCrossesBetweenThem) {
   const double r = 0.3, R = 0.5;
   TraceRequest request;
   Scene& scene = request.scene;
-  scene.name = "crossed";
   scene.nodes = {{"end", -3.0, r, true, true},
                  {"left", 0.0, 0.0, true, true},
                  {"right", 2.0, -1.5, false, true},
@@ -97,8 +85,7 @@ TEST(Rollers, ATendonCrossesBetweenThem) {
   scene.support_motions = {{"end", -0.2, 0.0}};
   request.options.stop = {{"load_factor", ">", 1.0}};
   request.options.record = {"sections"};
-  const TracedPath path = TraceIncrements(request);
-  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const TracedPath path = TraceProved(request);
   // Clockwise round the left one, counterclockwise round the right one: the piece between them is an inner tangent, and
   // those outside are level. Both arcs are the angle by which it goes down.
   const auto length = [&](double end, double x) {
@@ -112,7 +99,6 @@ TEST(Rollers, ATendonCrossesBetweenThem) {
   EXPECT_NEAR(last.sections[1].N, tension, kExact);
   const double apart = std::hypot(x, 1.5), down = -(std::atan2(-1.5, x) - std::asin((r + R) / apart));
   EXPECT_NEAR(tension * (1.0 - std::cos(down)), 0.25 * (x - 2.0), kExact);  // what the string pulls on the right roller
-  ExpectNoFindings(path);
 }
 
 // A drum that is turned winds the rope that is fixed to it; the moment that turns it is the tension times its radius.
@@ -122,46 +108,33 @@ TEST(Rollers, ADrumWindsATendon) {
     const double r = 0.2;
     TraceRequest request;
     Scene& scene = request.scene;
-    scene.name = "winch";
     scene.bodies = {{"drum", 0.0, 1.0, true, true}};
-    scene.nodes = {{"load", side * r, 0.0, true, false}, {"ground", side * r, -1.0, true, true}};
-    Node axle{"axle", 0.0, 1.0};
-    axle.body = "drum";
-    scene.nodes.push_back(axle);
+    scene.nodes = {
+        {"load", side * r, 0.0, true, false}, {"ground", side * r, -1.0, true, true}, NodeOf("drum", "axle", 0.0, 1.0)};
     scene.bars = {{{"load", "ground"}, 1.0}};
     scene.tendons = {TendonThrough({"load", "axle"}, {0.0, r}, {0.0, side * 2.0}, 40.0)};
-    Load turn;
-    turn.node = "drum";
-    turn.moment = side;
-    scene.loads = {turn};
+    scene.loads = {{"drum", 0.0, 0.0, false, side}};
     request.options.stop = {{"load_factor", ">", 0.1}};
     request.options.record = {"sections"};
-    const TracedPath path = TraceIncrements(request);
-    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const TracedPath path = TraceProved(request);
     const double tension = 0.1 / r, length = 1.0 + 4.0 * M_PI * r;
     const Increment& last = path.increments.back();
     EXPECT_NEAR(last.sections[1].N, tension, kExact);
     EXPECT_NEAR(last.positions[1], tension, kExact);
     // Turned by t: EA ((length - tension + r t) / length - 1) = tension.
     EXPECT_NEAR(side * last.rotations.back(), (tension + length * tension / 40.0) / r, kExact);
-    ExpectNoFindings(path);
 
     // Unwound to nothing, the rope has come to its end.
     request.scene.loads.clear();
     request.scene.bodies[0].fixed_rotation = true;
-    SupportMotion motion;
-    motion.body = "drum";
-    motion.rotation = -side;
-    request.scene.support_motions = {motion};
+    request.scene.support_motions = {{"", 0.0, 0.0, -side, "", "drum"}};
     request.scene.bars[0].rest_length = 0.2;
     request.options.stop.clear();
     request.options.max_increments = 1000;
-    const TracedPath unwound = TraceIncrements(request);
-    EXPECT_EQ(unwound.result.reason, EndReason::kPathEnd);
+    const TracedPath unwound = TraceProved(request, EndReason::kPathEnd);
     EXPECT_NE(unwound.result.message.find("tendon rope at axle comes off its roller"), std::string::npos)
         << unwound.result.message;
     EXPECT_NEAR(unwound.increments.back().load_factor, 4.0 * M_PI, 1e-8);
-    ExpectNoFindings(unwound);
   }
 }
 
@@ -171,29 +144,20 @@ TEST(Rollers, ADrivenOneDragsTheTendonAlong) {
   const double r = 0.2, friction = 0.15, wrapped = 3.0 * M_PI;
   TraceRequest request;
   Scene& scene = request.scene;
-  scene.name = "capstan";
   scene.bodies = {{"drum", 0.0, 1.0, true, true, true}};
   scene.nodes = {{"tail", -r, 0.0, true, false},
                  {"left", -r, -1.0, true, true},
                  {"load", r, 0.0, true, false},
-                 {"right", r, -1.0, true, true}};
-  Node axle{"axle", 0.0, 1.0};
-  axle.body = "drum";
-  scene.nodes.push_back(axle);
+                 {"right", r, -1.0, true, true},
+                 NodeOf("drum", "axle", 0.0, 1.0)};
   scene.bars = {{{"tail", "left"}, 1.0}, {{"load", "right"}, 1.0}};
-  scene.tendons = {TendonThrough({"tail", "axle", "load"}, {0.0, r, 0.0}, {0.0, -2.0, 0.0}, 100.0)};
-  scene.tendons[0].friction = friction;
-  scene.tendons[0].rest_length = 2.0 + wrapped * r - 0.6;
-  SupportMotion motion;
-  motion.body = "drum";
-  motion.rotation = 1.0;
-  scene.support_motions = {motion};
+  scene.tendons = {TendonThrough({"tail", "axle", "load"}, {0.0, r, 0.0}, {0.0, -2.0, 0.0}, 100.0, friction,
+                                 2.0 + wrapped * r - 0.6)};
+  scene.support_motions = {{"", 0.0, 0.0, 1.0, "", "drum"}};
   request.options.record = {"sections"};
   request.options.max_increments = 1000;
-  const TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-  EXPECT_NE(path.result.message.find("has been hauled by the arc on one side of its roller"), std::string::npos)
-      << path.result.message;
+  const TracedPath path =
+      TraceProved(request, EndReason::kPathEnd, "has been hauled by the arc on one side of its roller");
   EXPECT_NEAR(path.increments.back().load_factor, 0.5 * wrapped, 1e-8);
   bool slips = false;
   for (const Increment& increment : path.increments) {
@@ -206,7 +170,6 @@ TEST(Rollers, ADrivenOneDragsTheTendonAlong) {
     EXPECT_NEAR(moment, r * (increment.sections[3].N - increment.sections[2].N), kSoft);
   }
   EXPECT_TRUE(slips);
-  ExpectNoFindings(path);
 }
 
 // Lifted, a rope leaves the roller where it is straight, whether it bears something there or nothing.
@@ -217,20 +180,15 @@ TEST(Rollers, ATendonComesOffWhereItIsStraight) {
         SCOPED_TRACE(testing::Message() << friction << " " << EA << " " << rest_length);
         TraceRequest request;
         Scene& scene = request.scene;
-        scene.name = "lifted";
         scene.nodes = {{"a", -0.5, 0.8, true, true}, {"axle", 0.0, 1.0, true, true}, {"b", 0.5, 0.8, true, true}};
-        scene.tendons = {TendonThrough({"a", "axle", "b"}, {0.0, 0.2, 0.0}, {0.0, -1.0, 0.0}, EA)};
-        scene.tendons[0].friction = friction;
-        scene.tendons[0].rest_length = rest_length;
+        scene.tendons = {
+            TendonThrough({"a", "axle", "b"}, {0.0, 0.2, 0.0}, {0.0, -1.0, 0.0}, EA, friction, rest_length)};
         scene.nodes.push_back({"free", 2.0, 0.0});
         scene.superelements = {{{"free"}, {1.0, 0.0, 0.0, 1.0}}};
         scene.support_motions = {{"a", 0.0, 0.4}, {"b", 0.0, 0.4}};
         request.options.max_increments = 1000;
-        const TracedPath path = TraceIncrements(request);
-        EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-        EXPECT_NE(path.result.message.find("comes off its roller"), std::string::npos) << path.result.message;
+        const TracedPath path = TraceProved(request, EndReason::kPathEnd, "comes off its roller");
         EXPECT_NEAR(path.increments.back().load_factor, 1.0, 1e-8);  // at y = 1.2, the top of the roller
-        ExpectNoFindings(path);
       }
 }
 
@@ -238,8 +196,7 @@ TEST(Rollers, AreTheSameInOtherWords) {
   TraceRequest request = OverARoller(0.2, 30.0, 0.2, 0);
   request.scene.nodes[2].fixed_x = false;
   request.scene.superelements = {{{"load"}, {0.5, 0.0, 0.0, 0.0}}};
-  const TracedPath path = TraceIncrements(request);
-  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const TracedPath path = TraceProved(request);
   ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, kSoft);
   const TracedPath mirrored = TraceIncrements(Mirror(request));
   ASSERT_EQ(mirrored.increments.size(), path.increments.size());
@@ -250,17 +207,19 @@ TEST(Rollers, AreTheSameInOtherWords) {
 }
 
 TEST(Rollers, RefuseWhatNoTendonCanGoRound) {
-  const auto refused = [](std::vector<double> radii, std::vector<double> turns) {
+  const auto expect_refused = [](const std::vector<double>& radii, const std::vector<double>& turns,
+                                 const std::string& why) {
     TraceRequest request = OverARoller(0.2, 30.0, 0.2, 0);
-    request.scene.tendons[0].radii = std::move(radii);
-    request.scene.tendons[0].turns = std::move(turns);
+    request.scene.tendons[0].radii = radii;
+    request.scene.tendons[0].turns = turns;
     const std::vector<Violation> violations = Validate(request);
-    return violations.size() == 1 ? violations[0].ToLine() : std::to_string(violations.size()) + " violations";
+    ASSERT_EQ(violations.size(), 1U) << why;
+    EXPECT_NE(violations[0].ToLine().find(why), std::string::npos) << violations[0].ToLine();
   };
-  EXPECT_NE(refused({0.2}, {-1.0}).find("radii"), std::string::npos);
-  EXPECT_NE(refused({0.0, 0.2, 0.0}, {0.0, 1.5, 0.0}).find("whole number"), std::string::npos);
-  EXPECT_NE(refused({0.0, 0.2, 0.0}, {0.0, 0.0, 0.0}).find("must be 0 where the radius is"), std::string::npos);
-  EXPECT_NE(refused({0.0, 3.0, 0.0}, {0.0, 1.0, 0.0}).find("must leave room"), std::string::npos);
+  expect_refused({0.2}, {-1.0}, "radii");
+  expect_refused({0.0, 0.2, 0.0}, {0.0, 1.5, 0.0}, "whole number");
+  expect_refused({0.0, 0.2, 0.0}, {0.0, 0.0, 0.0}, "must be 0 where the radius is");
+  expect_refused({0.0, 3.0, 0.0}, {0.0, 1.0, 0.0}, "must leave room");
 }
 
 }  // namespace

@@ -3,34 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <string>
 
-#include "contact_path/scene/read_scene.h"
-#include "contact_path/verify/verify_path.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
 namespace contact_path::sizes_test {
 namespace {
 
-constexpr Method kMethods[] = {Method::kBranch, Method::kMpec};
-constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
-
 TracedPath TraceData(const std::string& name, Method method, Accuracy accuracy) {
-  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+  TraceRequest request = ReadData(name);
   request.options.method = method;
   request.options.accuracy = accuracy;
   request.options.max_increments = 5000;
-  return TraceIncrements(request);
+  return TraceVerified(request);
 }
 
-// Traced to its stop criterion, and accepted by the program that knows nothing of the solvers.
-void ExpectWhole(const TracedPath& path) {
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  const Verification verification = VerifyPath(path.request, path.increments);
-  for (const Finding& finding : verification.findings)
-    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+// By each method with each accuracy, traced to its stop criterion.
+void ForEachPath(const std::string& name, const std::function<void(const TracedPath&)>& expect) {
+  for (const Method method : kMethods)
+    for (const Accuracy accuracy : kPresets) {
+      SCOPED_TRACE(std::string(ToString(method)) + ' ' + std::string(ToString(accuracy)));
+      const TracedPath path = TraceData(name, method, accuracy);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      expect(path);
+    }
 }
 
 // Of an exact increment, or of one whose residuals are of the order of the root of the smallest eps.
@@ -38,45 +36,37 @@ double Tolerance(const Increment& increment, double exact) { return increment.so
 
 TEST(Sizes, CoordinatesFarFromTheOrigin) {
   constexpr double kAway = 1e6;
-  for (const Method method : kMethods)
-    for (const Accuracy accuracy : kPresets) {
-      SCOPED_TRACE(std::string(ToString(method)) + ' ' + std::string(ToString(accuracy)));
-      const TracedPath path = TraceData("far_from_origin", method, accuracy);
-      ExpectWhole(path);
-      for (const Increment& increment : path.increments) {
-        const double x = PositionX(path, increment, "b") - kAway;
-        const double tolerance = Tolerance(increment, 1e-9);  // positions are recorded to 1e-10
-        EXPECT_NEAR(increment.load_factor, increment.index == 0 ? 0.0 : sliding_bar::LoadFactor(x), tolerance);
-        EXPECT_NEAR(PositionY(path, increment, "b"), -kAway, tolerance);
-        EXPECT_NEAR(increment.contacts[0].rn, sliding_bar::NormalReaction(x), tolerance);
-      }
+  ForEachPath("far_from_origin", [](const TracedPath& path) {
+    for (const Increment& increment : path.increments) {
+      const double x = PositionX(path, increment, "b") - kAway;
+      const double tolerance = Tolerance(increment, 1e-9);  // positions are recorded to 1e-10
+      EXPECT_NEAR(increment.load_factor, increment.index == 0 ? 0.0 : sliding_bar::LoadFactor(x), tolerance);
+      EXPECT_NEAR(PositionY(path, increment, "b"), -kAway, tolerance);
+      EXPECT_NEAR(increment.contacts[0].rn, sliding_bar::NormalReaction(x), tolerance);
     }
+  });
 }
 
 TEST(Sizes, LimitLoadFarFromTheOrigin) {
   for (const Accuracy accuracy : kPresets) {
     const TracedPath path = TraceData("far_from_origin", Method::kBranch, accuracy);
-    EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, 2.191505308, 1e-9);
+    EXPECT_NEAR(LargestLoadFactor(path), 2.191505308, 1e-9);
   }
 }
 
 TEST(Sizes, GapsAtTheTolerance) {
-  for (const Method method : kMethods)
-    for (const Accuracy accuracy : kPresets) {
-      SCOPED_TRACE(std::string(ToString(method)) + ' ' + std::string(ToString(accuracy)));
-      const TracedPath path = TraceData("gaps_at_tolerance", method, accuracy);
-      ExpectWhole(path);
-      for (const Increment& increment : path.increments) {
-        const double s = increment.load_factor, tolerance = Tolerance(increment, 2e-10);
-        for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
-          const Node& node = path.request.scene.nodes[2 + i];
-          const double pressed = std::max(s - node.y, 0.0);
-          EXPECT_NEAR(increment.contacts[i].gap, std::max(node.y - s, 0.0), tolerance);
-          EXPECT_NEAR(increment.contacts[i].rn, pressed, tolerance);
-          EXPECT_NEAR(PositionX(path, increment, node.name), node.x + 0.5 * s - 0.3 * pressed, tolerance);
-        }
+  ForEachPath("gaps_at_tolerance", [](const TracedPath& path) {
+    for (const Increment& increment : path.increments) {
+      const double s = increment.load_factor, tolerance = Tolerance(increment, 2e-10);
+      for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+        const Node& node = path.request.scene.nodes[2 + i];
+        const double pressed = std::max(s - node.y, 0.0);
+        EXPECT_NEAR(increment.contacts[i].gap, std::max(node.y - s, 0.0), tolerance);
+        EXPECT_NEAR(increment.contacts[i].rn, pressed, tolerance);
+        EXPECT_NEAR(PositionX(path, increment, node.name), node.x + 0.5 * s - 0.3 * pressed, tolerance);
       }
     }
+  });
 }
 
 TEST(Sizes, VeryRoughFloor) {
@@ -86,9 +76,9 @@ TEST(Sizes, VeryRoughFloor) {
       SCOPED_TRACE(std::string(ToString(method)) + ' ' + std::string(ToString(accuracy)));
       const TracedPath path = TraceData("very_rough_floor", method, accuracy);
       if (method == Method::kBranch) {
-        ExpectWhole(path);
+        EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
         const double most = sliding_bar::kEA * (1.0 / sliding_bar::kHeight - 1.0 / sliding_bar::kRestLength);
-        EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor / kFriction, most * sliding_bar::kHeight, 1e-12);
+        EXPECT_NEAR(LargestLoadFactor(path) / kFriction, most * sliding_bar::kHeight, 1e-12);
         EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kSmoothLimit).size(), 1U);
       } else {
         // The node slides by a millionth of what the load grows: less than the regularisation can tell from sticking.
@@ -113,7 +103,7 @@ TEST(Sizes, ContactThatIsSoftAcrossAndStiffAlong) {
   for (const Accuracy accuracy : kPresets) {  // by branch: forces of 1e-12 of F are far below the eps of mpec
     SCOPED_TRACE(ToString(accuracy));
     const TracedPath path = TraceData("soft_across_stiff_along", Method::kBranch, accuracy);
-    ExpectWhole(path);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (const Increment& increment : path.increments) {
       const double lifted = PositionY(path, increment, "c") - 1.0;
       EXPECT_NEAR(increment.contacts[0].gap, std::max(lifted, 0.0), kRounding);
@@ -127,7 +117,7 @@ TEST(Sizes, ContactThatIsSoftInAllDirections) {
   for (const Accuracy accuracy : kPresets) {
     SCOPED_TRACE(ToString(accuracy));
     const TracedPath path = TraceData("soft_support", Method::kBranch, accuracy);
-    ExpectWhole(path);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (const Increment& increment : path.increments) {
       const double x_c = PositionX(path, increment, "c"), y_c = PositionY(path, increment, "c");
       const double pressed = std::max(1.0 - y_c, 0.0), x = std::max(x_c - kFriction * pressed, 0.0);
@@ -141,7 +131,7 @@ TEST(Sizes, ContactThatIsSoftInAllDirections) {
 
 // The regularisation of method mpec cannot tell slip from stick there, nor any method where loads drive the path.
 TEST(Sizes, ContactThatIsTooSoftEndsByName) {
-  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/soft_support.yaml");
+  TraceRequest request = ReadData("soft_support");
   request.options.method = Method::kMpec;
   const TracedPath mpec = TraceIncrements(request);
   request.options.method = Method::kBranch;
@@ -182,39 +172,31 @@ TEST(Sizes, SoftestContactOfAll) {
 
 TEST(Sizes, HeavyConstantLoadOnALinearPart) {
   constexpr double kLoad = 1e9;
-  for (const Method method : kMethods)
-    for (const Accuracy accuracy : kPresets) {
-      SCOPED_TRACE(std::string(ToString(method)) + ' ' + std::string(ToString(accuracy)));
-      const TracedPath path = TraceData("heavy_constant_load", method, accuracy);
-      ExpectWhole(path);
-      for (const Increment& increment : path.increments) {
-        const double x = PositionX(path, increment, "p") / kLoad, s = increment.load_factor / kLoad;
-        // Method mpec may cut corners.
-        const double tolerance = method == Method::kBranch ? 1e-12 : 1e-2;
-        switch (increment.contacts[0].state) {
-          case ContactState::kStick: EXPECT_NEAR(x, 0.0, tolerance); break;
-          case ContactState::kSlipPlus: EXPECT_NEAR(s, 1.0 - 0.5 * x, tolerance); break;
-          case ContactState::kOpen: EXPECT_NEAR(s, 2.0 / 3.0 + 0.4375 * (x - 2.0 / 3.0), tolerance); break;
-          default: ADD_FAILURE() << ToString(increment.contacts[0].state);
-        }
+  ForEachPath("heavy_constant_load", [](const TracedPath& path) {
+    for (const Increment& increment : path.increments) {
+      const double x = PositionX(path, increment, "p") / kLoad, s = increment.load_factor / kLoad;
+      // Method mpec may cut corners.
+      const double tolerance = path.request.options.method == Method::kBranch ? 1e-12 : 1e-2;
+      switch (increment.contacts[0].state) {
+        case ContactState::kStick: EXPECT_NEAR(x, 0.0, tolerance); break;
+        case ContactState::kSlipPlus: EXPECT_NEAR(s, 1.0 - 0.5 * x, tolerance); break;
+        case ContactState::kOpen: EXPECT_NEAR(s, 2.0 / 3.0 + 0.4375 * (x - 2.0 / 3.0), tolerance); break;
+        default: ADD_FAILURE() << ToString(increment.contacts[0].state);
       }
-      EXPECT_EQ(path.increments.back().contacts[0].state, ContactState::kOpen);
     }
+    EXPECT_EQ(path.increments.back().contacts[0].state, ContactState::kOpen);
+  });
 }
 
 TEST(Sizes, LoadsThatNearlyCancel) {
-  for (const Method method : kMethods)
-    for (const Accuracy accuracy : kPresets) {
-      SCOPED_TRACE(std::string(ToString(method)) + ' ' + std::string(ToString(accuracy)));
-      const TracedPath path = TraceData("loads_that_cancel", method, accuracy);
-      ExpectWhole(path);
-      const double load = path.request.scene.loads[0].fx + path.request.scene.loads[1].fx;
-      for (const Increment& increment : path.increments) {
-        const double force = load * increment.load_factor;
-        EXPECT_NEAR(PositionX(path, increment, "p"), std::min(force, 1.0), 1e-11);
-        EXPECT_NEAR(increment.contacts[0].rn, std::max(force - 1.0, 0.0), 1e-11);
-      }
+  ForEachPath("loads_that_cancel", [](const TracedPath& path) {
+    const double load = path.request.scene.loads[0].fx + path.request.scene.loads[1].fx;
+    for (const Increment& increment : path.increments) {
+      const double force = load * increment.load_factor;
+      EXPECT_NEAR(PositionX(path, increment, "p"), std::min(force, 1.0), 1e-11);
+      EXPECT_NEAR(increment.contacts[0].rn, std::max(force - 1.0, 0.0), 1e-11);
     }
+  });
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // What slides while the load rests: a path that goes on, no jump, and a verdict that no energy tells.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "contact_path/path/trace.h"
 #include "support/traced_path.h"
 
 namespace contact_path::sliding_test {

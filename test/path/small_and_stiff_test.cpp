@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <sstream>
 #include <string>
 
@@ -28,7 +27,6 @@ TracedPath Trace(const std::string& text) { return TraceIncrements(ReadTraceRequ
 
 TracedPath TraceToItsEnd(const std::string& text) {
   const TracedPath path = TraceProved(ReadTraceRequest(text, "test"));
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
   return path;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/parts.h"
 #include "support/traced_path.h"
 
 namespace contact_path::stop_test {
@@ -28,49 +29,45 @@ class Stop : public testing::Test {
     return criterion == nullptr ? -1.0 : criterion->value;
   }
 
+  // Each of them alone.
+  void ExpectHold(const std::vector<StopCriterion>& criteria) {
+    for (const StopCriterion& criterion : criteria)
+      EXPECT_EQ(ValueThatHolds({criterion}), criterion.value) << ToText(criterion);
+  }
+
+  void ExpectNotToHold(const std::vector<StopCriterion>& criteria) {
+    for (const StopCriterion& criterion : criteria) EXPECT_EQ(ValueThatHolds({criterion}), -1.0) << ToText(criterion);
+  }
+
   TraceRequest request_;
   Increment increment_;
 };
 
 TEST_F(Stop, EachQuantityIsItsOwn) {
   // Quantities are 1, 2, 3, 4 and 0.5: each lies just beyond or just short of the value.
-  EXPECT_EQ(ValueThatHolds({{"a.x", ">", 0.9}}), 0.9);
-  EXPECT_EQ(ValueThatHolds({{"a.x", ">", 1.1}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"a.y", ">", 1.9}}), 1.9);
-  EXPECT_EQ(ValueThatHolds({{"a.y", ">", 2.1}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"b.x", "<", 3.1}}), 3.1);
-  EXPECT_EQ(ValueThatHolds({{"b.x", "<", 2.9}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"b.y", "<", 4.1}}), 4.1);
-  EXPECT_EQ(ValueThatHolds({{"b.y", "<", 3.9}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"load_factor", ">", 0.4}}), 0.4);
-  EXPECT_EQ(ValueThatHolds({{"load_factor", "<", 0.4}}), -1.0);
+  ExpectHold({{"a.x", ">", 0.9}, {"a.y", ">", 1.9}, {"b.x", "<", 3.1}, {"b.y", "<", 4.1}, {"load_factor", ">", 0.4}});
+  ExpectNotToHold(
+      {{"a.x", ">", 1.1}, {"a.y", ">", 2.1}, {"b.x", "<", 2.9}, {"b.y", "<", 3.9}, {"load_factor", "<", 0.4}});
 }
 
 TEST_F(Stop, QuantitiesOfContacts) {
-  EXPECT_EQ(ValueThatHolds({{"a@floor.gap", ">", 4.9}}), 4.9);
-  EXPECT_EQ(ValueThatHolds({{"a@floor.gap", ">", 5.1}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"a@floor.rn", "<", 6.1}}), 6.1);
-  EXPECT_EQ(ValueThatHolds({{"a@floor.rn", "<", 5.9}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"a@floor.rt", ">", 6.9}}), 6.9);
-  EXPECT_EQ(ValueThatHolds({{"b@floor.gap", ">", 7.9}}), 7.9);
-  EXPECT_EQ(ValueThatHolds({{"b@floor.rn", "<", 9.1}}), 9.1);
-  EXPECT_EQ(ValueThatHolds({{"b@floor.rt", "<", -9.9}}), -9.9);
-  EXPECT_EQ(ValueThatHolds({{"b@floor.rt", "<", -10.1}}), -1.0);
+  ExpectHold({{"a@floor.gap", ">", 4.9},
+              {"a@floor.rn", "<", 6.1},
+              {"a@floor.rt", ">", 6.9},
+              {"b@floor.gap", ">", 7.9},
+              {"b@floor.rn", "<", 9.1},
+              {"b@floor.rt", "<", -9.9}});
+  ExpectNotToHold({{"a@floor.gap", ">", 5.1}, {"a@floor.rn", "<", 5.9}, {"b@floor.rt", "<", -10.1}});
 }
 
 TEST_F(Stop, ColumnsOfTheTableAreTheSameQuantities) {
-  EXPECT_EQ(ValueThatHolds({{"y_a", ">", 1.9}}), 1.9);
-  EXPECT_EQ(ValueThatHolds({{"x_b", "<", 2.9}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"gap_b@floor", ">", 7.9}}), 7.9);
-  EXPECT_EQ(ValueThatHolds({{"rn_a@floor", ">", 6.1}}), -1.0);
+  ExpectHold({{"y_a", ">", 1.9}, {"gap_b@floor", ">", 7.9}});
+  ExpectNotToHold({{"x_b", "<", 2.9}, {"rn_a@floor", ">", 6.1}});
 }
 
 TEST_F(Stop, TheValueItselfIsNotBeyond) {
-  EXPECT_EQ(ValueThatHolds({{"a.x", ">", 1.0}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"a.x", "<", 1.0}}), -1.0);
-  // Nor is rounding.
-  EXPECT_EQ(ValueThatHolds({{"a.x", ">", 1.0 - 1e-15}}), -1.0);
-  EXPECT_EQ(ValueThatHolds({{"load_factor", "<", 0.5 + 1e-15}}), -1.0);
+  ExpectNotToHold({{"a.x", ">", 1.0}, {"a.x", "<", 1.0}});
+  ExpectNotToHold({{"a.x", ">", 1.0 - 1e-15}, {"load_factor", "<", 0.5 + 1e-15}});  // nor is rounding
 }
 
 // The last digit of a coordinate of 391 is 6e-14.
@@ -92,9 +89,7 @@ TEST_F(Stop, RoundingOfAProgramWithoutBars) {
   request_.scene.bars.clear();
   request_.scene.superelements = {{{"b"}, {1.0, 0.0, 0.0, 1.0}}};
   request_.scene.loads.clear();
-  Stage stage;
-  stage.loads = {{"b", 1.0, 0.0, false}};
-  request_.program = {stage};
+  request_.program = {LoadingStage({{"b", 1.0, 0.0}})};
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 1.0 - 1e-15}}), -1.0);
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 0.9}}), 0.9);
 }
@@ -125,20 +120,17 @@ TraceRequest Block(double fx, double fy, const StopCriterion& stop) {
 
 // Lifted, the block leaves the floor at s = 1 and goes up by (s - 1) / 2; pushed, it slips from s = 0.5 on.
 TEST(StopOfATrace, QuantitiesOfContactsEndItWhereTheyPassTheValue) {
-  const TracedPath unloaded = TraceIncrements(Block(0.0, 1.0, {"p@floor.rn", "<", 0.4}));
-  EXPECT_EQ(unloaded.result.reason, EndReason::kStopCriterion) << unloaded.result.message;
+  const TracedPath unloaded = TraceProved(Block(0.0, 1.0, {"p@floor.rn", "<", 0.4}));
   EXPECT_NEAR(unloaded.increments.back().contacts[0].rn, 0.4, kRounding);
   EXPECT_GE(unloaded.increments[unloaded.increments.size() - 2].contacts[0].rn, 0.4 - kRounding);
   EXPECT_NEAR(unloaded.increments.back().load_factor, 0.6, kRounding);
 
-  const TracedPath lifted = TraceIncrements(Block(0.0, 1.0, {"gap_p@floor", ">", 0.1}));
-  EXPECT_EQ(lifted.result.reason, EndReason::kStopCriterion) << lifted.result.message;
+  const TracedPath lifted = TraceProved(Block(0.0, 1.0, {"gap_p@floor", ">", 0.1}));
   EXPECT_NEAR(lifted.increments.back().contacts[0].gap, 0.1, kRounding);
   EXPECT_LE(lifted.increments[lifted.increments.size() - 2].contacts[0].gap, 0.1 + kRounding);
   EXPECT_NEAR(lifted.increments.back().load_factor, 1.0 + 2.0 * lifted.increments.back().contacts[0].gap, 1e-6);
 
-  const TracedPath pushed = TraceIncrements(Block(1.0, 0.0, {"p@floor.rt", "<", -0.3}));
-  EXPECT_EQ(pushed.result.reason, EndReason::kStopCriterion) << pushed.result.message;
+  const TracedPath pushed = TraceProved(Block(1.0, 0.0, {"p@floor.rt", "<", -0.3}));
   EXPECT_NEAR(pushed.increments.back().contacts[0].rt, -0.3, kRounding);
   EXPECT_GE(pushed.increments[pushed.increments.size() - 2].contacts[0].rt, -0.3 - kRounding);
 

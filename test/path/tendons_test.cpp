@@ -1,12 +1,11 @@
 // Tendons through eyes without friction, in closed form.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "contact_path/path/trace.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -23,14 +22,12 @@ TEST(Tendons, AnEyeSlidesAlongARope) {
     SCOPED_TRACE(EA);
     TraceRequest request;
     Scene& scene = request.scene;
-    scene.name = "eye_on_a_rope";
     scene.nodes = {{"left", -1.0, 0.0, true, true}, {"eye", 0.0, -1.0}, {"right", 1.0, 0.0, true, true}};
     scene.tendons = {{"rope", {"left", "eye", "right"}, EA, 2.8}};
     scene.loads = {{"eye", 0.0, -1.0, true}, {"eye", 1.0, 0.0}};
     request.options.stop = {{"eye.x", ">", 0.6}};
     request.options.record = {"sections"};
-    const TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const TracedPath path = TraceProved(request);
     for (const Increment& increment : path.increments) {
       const double x = increment.positions[2], y = increment.positions[3];
       const double left = std::hypot(x + 1.0, y), right = std::hypot(x - 1.0, y);
@@ -41,7 +38,6 @@ TEST(Tendons, AnEyeSlidesAlongARope) {
       for (const SectionForces& section : increment.sections) EXPECT_NEAR(section.N, N, 1e-9);
       EXPECT_EQ(increment.bars[0], BarState::kTaut);
     }
-    ExpectNoFindings(path);
   }
 }
 
@@ -49,9 +45,7 @@ TEST(Tendons, AnEyeSlidesAlongARope) {
 TEST(Tendons, ATackleShares) {
   for (const int parts : {2, 3, 4, 6}) {
     SCOPED_TRACE(parts);
-    TraceRequest request;
-    Scene& scene = request.scene;
-    scene.name = "tackle";
+    Scene scene;
     scene.nodes = {{"roof", 0.0, 0.0, true, true}, {"load", 0.0, -5.0, true, false}, {"hand", 1.0, 0.0, true, true}};
     std::vector<std::string> nodes;
     for (int i = 0; i <= parts; ++i) nodes.emplace_back((parts - i) % 2 == 0 ? "roof" : "load");
@@ -59,15 +53,12 @@ TEST(Tendons, ATackleShares) {
     scene.tendons = {{"", nodes, 1e3, 0.0}};
     scene.loads = {{"load", 0.0, -1.0, true}};
     scene.support_motions = {{"hand", 1.0, 0.0}};
-    request.options.stop = {{"load_factor", ">", 2.0}};
-    const TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const TracedPath path = TraceUntil({"load_factor", ">", 2.0}, scene);
     const double first = path.increments.front().positions[3];
     for (const Increment& increment : path.increments) {
       EXPECT_NEAR(increment.supports.back().rx, 1.0 / parts, kExact);
       EXPECT_NEAR(increment.positions[3] - first, increment.load_factor / parts, kExact);
     }
-    ExpectNoFindings(path);
   }
 }
 
@@ -76,27 +67,15 @@ TEST(Tendons, ATackleShares) {
 TEST(Tendons, AreTheSameInOtherWords) {
   TraceRequest request;
   Scene& scene = request.scene;
-  scene.name = "lifted_beam";
   scene.bodies = {{"load", 0.05, -1.8}};
-  scene.nodes = {{"one", -0.5, -0.9}, {"two", 0.6, -0.8}, {"hook", 0.0, 0.0, true, true}};
-  scene.nodes[0].body = scene.nodes[1].body = "load";
+  scene.nodes = {NodeOf("load", "one", -0.5, -0.9), NodeOf("load", "two", 0.6, -0.8), {"hook", 0.0, 0.0, true, true}};
   scene.tendons = {{"sling", {"one", "hook", "two"}, 50.0, 2.0}};
-  Load weight, push;
-  weight.body = push.body = "load";
-  weight.by = -1.0;
-  weight.constant = true;
-  push.fx = 0.4;
-  push.moment = 0.2;
-  scene.loads = {weight, push};
+  scene.loads = {LoadOnBody("load", 0.0, -1.0, true), LoadOnBody("load", 0.4, 0.0, false, 0.2)};
   scene.superelements = {{{"one"}, {0.3, 0.0, 0.0, 0.3}}};
   request.options.stop = {{"load_factor", ">", 1.0}};
-  const TracedPath path = TraceIncrements(request);
-  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const TracedPath path = TraceProved(request);
   EXPECT_EQ(path.increments.front().bars[0], BarState::kTaut);
-  ExpectNoFindings(path);
-  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, kSame);
-  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(request))), path, kSame);
-  ExpectSamePath(UndoMirror(TraceIncrements(Mirror(request))), path, kSame);
+  ExpectSameInOtherWords(request, path, kSame);
 }
 
 }  // namespace

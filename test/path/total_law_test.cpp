@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "contact_path/verify/verify_path.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 
 namespace contact_path::total_law_test {
@@ -51,7 +51,7 @@ TEST_F(TotalLaw, AStickSlipCycleHasNoLoop) {
 TEST_F(TotalLaw, RoughTrussIsThatOfTheIncrementalLaw) {
   const TracedPath path = TraceTotal(ReadExample("rough_truss"));
   const double l0 = std::hypot(1.0, 1.2), lc = std::sqrt(2.0), corner = std::sqrt(2.0) * (1.0 - lc / l0);
-  EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, corner, kRounding);
+  EXPECT_NEAR(LargestLoadFactor(path), corner, kRounding);
   for (const Increment& increment : path.increments) {
     if (Contact(path, increment, "foot@floor").state != ContactState::kSlipPlus) continue;
     // The slope of the bars stays 1 / mu = 1.
@@ -69,12 +69,8 @@ TEST_F(TotalLaw, SlipIsToldByWhereANodeTouchesAgain) {
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}, {0.0, 0.0}}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
   scene.contacts = {{"p", "floor"}};
-  Stage lift, carry, press;
-  lift.loads = {{"p", 0.0, 0.2}};
-  carry.loads = {{"p", 1.0, 0.0}};
-  press.loads = {{"p", 0.0, -1.0}};
-  press.target = 3.2;
-  request.program = {lift, carry, press};
+  request.program = {LoadingStage({{"p", 0.0, 0.2}}), LoadingStage({{"p", 1.0, 0.0}}),
+                     LoadingStage({{"p", 0.0, -1.0}}, 3.2)};
   request.options.step = 0.1;
   const TracedPath path = TraceTotal(request);
   for (const Increment& increment : path.increments) {
@@ -98,18 +94,9 @@ TEST_F(TotalLaw, TheWayBackRoundADiscIsTheWayThere) {
   Scene& scene = request.scene;
   scene.nodes = {{"p", std::sin(kStart), std::cos(kStart), false, false}};
   scene.superelements = {{{"p"}, {1.3, 0.0, 0.0, 0.8}, {0.2, -0.3}}};
-  Obstacle peg;
-  peg.name = "peg";
-  peg.shape = ObstacleShape::kCircle;
-  peg.radius = 1.0;
-  peg.friction = kFriction;
-  scene.obstacles = {peg};
+  scene.obstacles = {Circle("peg", 0.0, 0.0, 1.0, kFriction)};
   scene.contacts = {{"p", "peg"}};
-  Stage there, back;
-  there.loads = {{"p", 1.0, -0.2}};
-  there.target = kTarget;
-  back.unload = true;
-  request.program = {there, back};
+  request.program = {LoadingStage({{"p", 1.0, -0.2}}, kTarget), UnloadingStage()};
   request.options.step = 0.2;
   const TracedPath path = TraceTotal(request);
   int sliding = 0;
@@ -136,11 +123,7 @@ TEST_F(TotalLaw, AResumedPathIsTheWholeOne) {
   const TracedPath whole = TraceTotal(request);
   for (const std::size_t cut :
        {whole.increments.size() / 4, whole.increments.size() / 2, whole.increments.size() - 2}) {
-    std::vector<Increment> increments;
-    TraceControl control;
-    control.on_increment = [&](const Increment& increment) { increments.push_back(increment); };
-    ResumeTrace(whole.request, {whole.increments.begin(), whole.increments.begin() + static_cast<std::ptrdiff_t>(cut)},
-                control);
+    const std::vector<Increment> increments = ResumeAfter(cut, whole).increments;
     ASSERT_EQ(increments.size(), whole.increments.size());
     for (std::size_t i = 0; i < increments.size(); ++i) {
       EXPECT_EQ(increments[i].contacts[0].state, whole.increments[i].contacts[0].state);
@@ -152,7 +135,7 @@ TEST_F(TotalLaw, AResumedPathIsTheWholeOne) {
 
 TEST(VerifyTotalLaw, TellsThePathOfTheOtherLaw) {
   TracedPath path = TraceIncrements(ReadExample("stick_slip_cycle"));
-  EXPECT_TRUE(VerifyPath(path.request, path.increments).findings.empty());
+  ExpectNoFindings(path);
   path.request.options.friction_law = FrictionLaw::kTotal;
   EXPECT_FALSE(VerifyPath(path.request, path.increments).findings.empty());
 }

@@ -36,6 +36,14 @@ inline Material LameMaterial(MaterialModel model) {
   return material;
 }
 
+// Without elements so far.
+inline Solid SolidOf(const std::string& material, int nodes_per_element = 4) {
+  Solid solid;
+  solid.material = material;
+  solid.nodes_per_element = nodes_per_element;
+  return solid;
+}
+
 // A mesh of nx x ny cells over the unit square, mapped by `place`. A node at (i / 2 nx, j / 2 ny) has the name "i_j":
 // corners of cells have even numbers, mid-sides odd ones. Triangles halve the cells. solid: what it is made of, and
 // nodes_per_element.
@@ -118,11 +126,9 @@ inline TraceRequest PressedBlock(int nx, int ny, int nodes_per_element, double l
   Scene& scene = request.scene;
   scene.name = "pressed block";
   scene.materials = {ElasticMaterial("m", 1.0, 0.3)};
-  Solid block;
-  block.material = "m";
-  block.nodes_per_element = nodes_per_element;
   AddGrid(
-      &scene, nx, ny, [&](double x, double y) { return Eigen::Vector2d(x - lean * y, y); }, block);
+      &scene, nx, ny, [&](double x, double y) { return Eigen::Vector2d(x - lean * y, y); },
+      SolidOf("m", nodes_per_element));
   PressOn({"plate", ObstacleShape::kHalfPlane, 0.0, 1.0, 0.0, -1.0, friction}, -1.0, 0.0, 1.0, &scene);
   request.options.stop = {{"load_factor", ">", 0.2}};
   return request;

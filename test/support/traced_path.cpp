@@ -84,6 +84,16 @@ TraceRequest ReadExample(const std::string& name) {
   return ReadTraceRequestFile(std::string(CONTACT_PATH_SCENES) + "/" + name + ".yaml");
 }
 
+TraceRequest ReadData(const std::string& name) {
+  return ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+}
+
+TraceRequest ReadLongData(const std::string& name) {
+  TraceRequest request = ReadData(name);
+  request.options.max_increments = 4 * static_cast<int>(request.options.MaxIncrements(request.program.size()));
+  return request;
+}
+
 TracedPath TraceText(std::string text, const std::map<std::string, double>& values) {
   for (const auto& [name, value] : values) {
     std::ostringstream number;
@@ -111,13 +121,71 @@ void ExpectNoFindings(const TracedPath& path) {
     ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
 }
 
-TracedPath TraceProved(const TraceRequest& request, double largest_residual) {
+TracedPath TraceVerified(const TraceRequest& request, double largest_residual) {
   TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
   ExpectNoFindings(path);
-  for (const Increment& increment : path.increments) EXPECT_LE(increment.residuals.Largest(), largest_residual);
+  for (const Increment& increment : path.increments)
+    EXPECT_LE(increment.residuals.Largest(), largest_residual) << "increment " << increment.index;
+  return path;
+}
+
+TracedPath TraceProved(const TraceRequest& request, EndReason end, const std::string& message) {
+  TracedPath path = TraceProved(request, end, std::numeric_limits<double>::infinity());
+  ExpectEnd(path, end, message);
+  return path;
+}
+
+TracedPath TraceProved(const TraceRequest& request, EndReason end, double largest_residual) {
+  TracedPath path = TraceVerified(request, largest_residual);
+  ExpectEnd(path, end, "");
   path.request = Expand(request).request;
   return path;
+}
+
+TracedPath TraceProved(const TraceRequest& request, double largest_residual) {
+  return TraceProved(request, EndReason::kStopCriterion, largest_residual);
+}
+
+TracedPath TraceUntil(const StopCriterion& stop, const Scene& scene) {
+  TraceRequest request;
+  request.scene = scene;
+  request.options.stop = {stop};
+  return TraceProved(request);
+}
+
+void ForEachAccuracy(TraceRequest request, EndReason end, const std::function<void(const TracedPath&)>& expect,
+                     double largest_residual) {
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    request.options.accuracy = accuracy;
+    expect(TraceProved(request, end, largest_residual));
+  }
+}
+
+TracedPath ResumeAfter(std::size_t count, const TracedPath& path) {
+  TracedPath resumed{path.request, {}, {}};
+  TraceControl control;
+  control.on_increment = [&](const Increment& increment) { resumed.increments.push_back(increment); };
+  control.mpec = MakeMpecMethod;
+  const auto end = path.increments.begin() + static_cast<std::ptrdiff_t>(count);
+  resumed.result = ResumeTrace(path.request, {path.increments.begin(), end}, control);
+  return resumed;
+}
+
+std::vector<Increment> Thinned(const TracedPath& path, int every) {
+  std::vector<Increment> increments = path.increments;
+  for (Increment& increment : increments)
+    if (increment.kind == IncrementKind::kRegular && increment.index % every != 0) {
+      increment.positions.clear();
+      increment.rotations.clear();
+      increment.contacts.clear();
+    }
+  return increments;
+}
+
+void ExpectEnd(const TracedPath& path, EndReason end, const std::string& message) {
+  EXPECT_EQ(ToString(path.result.reason), ToString(end)) << path.result.message;
+  EXPECT_NE(path.result.message.find(message), std::string::npos) << path.result.message;
 }
 
 TracedPath TraceScene(const Scene& scene, int increments) {
@@ -177,11 +245,45 @@ std::size_t LargestLoad(const TracedPath& path) {
   return static_cast<std::size_t>(largest - path.increments.begin());
 }
 
+double LargestLoadFactor(const TracedPath& path) { return path.increments.at(LargestLoad(path)).load_factor; }
+
 std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind kind) {
   std::vector<Increment> increments;
   for (const Increment& increment : path.increments)
     if (increment.kind == kind) increments.push_back(increment);
   return increments;
+}
+
+std::vector<double> LoadsOfKind(const TracedPath& path, IncrementKind kind) {
+  std::vector<double> loads;
+  for (const Increment& increment : IncrementsOfKind(path, kind)) loads.push_back(increment.load_factor);
+  return loads;
+}
+
+void ExpectNear(const std::vector<double>& actual, const std::vector<double>& expected, double tolerance) {
+  ASSERT_EQ(actual.size(), expected.size());
+  for (std::size_t i = 0; i < actual.size(); ++i) EXPECT_NEAR(actual[i], expected[i], tolerance) << i;
+}
+
+const Increment& LastOfStage(const TracedPath& path, int stage) {
+  const auto last = std::find_if(path.increments.rbegin(), path.increments.rend(),
+                                 [&](const Increment& increment) { return increment.stage == stage; });
+  if (last == path.increments.rend()) throw std::runtime_error("no stage " + std::to_string(stage));
+  return *last;
+}
+
+double LargestDifference(const Increment& a, const Increment& b) {
+  EXPECT_EQ(a.positions.size(), b.positions.size());
+  EXPECT_EQ(a.contacts.size(), b.contacts.size());
+  double worst = std::abs(a.load_factor - b.load_factor);
+  for (std::size_t i = 0; i < std::min(a.positions.size(), b.positions.size()); ++i)
+    worst = std::max(worst, std::abs(a.positions[i] - b.positions[i]));
+  for (std::size_t i = 0; i < std::min(a.contacts.size(), b.contacts.size()); ++i) {
+    const ContactRecord &of_a = a.contacts[i], &of_b = b.contacts[i];
+    EXPECT_EQ(of_a.state, of_b.state) << "contact " << i;
+    worst = std::max({worst, std::abs(of_a.gap - of_b.gap), std::abs(of_a.rn - of_b.rn), std::abs(of_a.rt - of_b.rt)});
+  }
+  return worst;
 }
 
 std::vector<const Increment*> EventsOf(const TracedPath& path) {

@@ -2,9 +2,12 @@
 #ifndef CONTACT_PATH_TEST_SUPPORT_TRACED_PATH_H_
 #define CONTACT_PATH_TEST_SUPPORT_TRACED_PATH_H_
 
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +16,9 @@
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
+
+constexpr Method kMethods[] = {Method::kBranch, Method::kMpec};
+constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
 
 struct TracedPath {
   TraceRequest request;
@@ -23,6 +29,12 @@ struct TracedPath {
 // The request in scenes/<name>.yaml.
 TraceRequest ReadExample(const std::string& name);
 
+// The request in test/data/<name>.yaml.
+TraceRequest ReadData(const std::string& name);
+
+// The same with four times the increments of the default.
+TraceRequest ReadLongData(const std::string& name);
+
 // All increments of the request of this text, in which <name> stands for values[name].
 TracedPath TraceText(std::string text, const std::map<std::string, double>& values = {});
 
@@ -32,9 +44,35 @@ TracedPath TraceIncrements(const TraceRequest& request);
 // What VerifyPath finds wrong with a path fails the test.
 void ExpectNoFindings(const TracedPath& path);
 
-// All increments of a request whose path is complete and proved, with residuals up to this bound. The request of the
-// path has the nodes and contacts of beams and groups by name.
-TracedPath TraceProved(const TraceRequest& request, double largest_residual = std::numeric_limits<double>::infinity());
+// All increments of a request, wherever they end, proved by VerifyPath, with residuals up to this bound.
+TracedPath TraceVerified(const TraceRequest& request,
+                         double largest_residual = std::numeric_limits<double>::infinity());
+
+// All increments of a request whose path ends for this reason, with this part of a message, and is proved. The request
+// of the path has the nodes and contacts of beams and groups by name.
+TracedPath TraceProved(const TraceRequest& request, EndReason end = EndReason::kStopCriterion,
+                       const std::string& message = "");
+
+// The same with residuals up to this bound; by default to a stop criterion or the end of a program.
+TracedPath TraceProved(const TraceRequest& request, EndReason end, double largest_residual);
+TracedPath TraceProved(const TraceRequest& request, double largest_residual);
+
+// The same of a scene by default options, to this criterion.
+TracedPath TraceUntil(const StopCriterion& stop, const Scene& scene);
+
+// Each accuracy of a request: the path ends for this reason and is proved, with residuals up to this bound, and is as
+// expected.
+void ForEachAccuracy(TraceRequest request, EndReason end, const std::function<void(const TracedPath&)>& expect,
+                     double largest_residual = std::numeric_limits<double>::infinity());
+
+// The increments behind the first `count` ones of a path are traced anew, going on from those.
+TracedPath ResumeAfter(std::size_t count, const TracedPath& path);
+
+// The increments of a path without the states that full_state_every = `every` leaves out.
+std::vector<Increment> Thinned(const TracedPath& path, int every);
+
+// The path ends for this reason, with this part of a message.
+void ExpectEnd(const TracedPath& path, EndReason end, const std::string& message);
 
 // At most so many increments of a scene, by default options.
 TracedPath TraceScene(const Scene& scene, int increments);
@@ -51,10 +89,29 @@ const ContactRecord& Contact(const TracedPath& path, const Increment& increment,
 // Of the normal reactions of all contacts [force].
 double SumOfNormals(const Increment& increment);
 
-// Index of the increment with the largest load factor.
+// Index of the increment with the largest load factor, and that load factor.
 std::size_t LargestLoad(const TracedPath& path);
+double LargestLoadFactor(const TracedPath& path);
 
 std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind kind);
+std::vector<double> LoadsOfKind(const TracedPath& path, IncrementKind kind);
+
+// As many numbers, each within the tolerance.
+void ExpectNear(const std::vector<double>& actual, const std::vector<double>& expected, double tolerance);
+
+// The first increment of a path that is so; there must be one.
+template <typename Predicate>
+const Increment& FirstThat(const TracedPath& path, Predicate is_so) {
+  const auto found = std::find_if(path.increments.begin(), path.increments.end(), is_so);
+  if (found == path.increments.end()) throw std::runtime_error("no such increment; " + path.result.message);
+  return *found;
+}
+
+// The stage must have increments.
+const Increment& LastOfStage(const TracedPath& path, int stage);
+
+// Of positions, load factor, gaps and reactions; the states of the contacts are the same.
+double LargestDifference(const Increment& a, const Increment& b);
 
 // Starts of stages, limit points, events, bifurcations, onsets of instability and jumps.
 std::vector<const Increment*> EventsOf(const TracedPath& path);

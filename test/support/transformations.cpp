@@ -333,4 +333,10 @@ void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double
   }
 }
 
+void ExpectSameInOtherWords(const TraceRequest& request, const TracedPath& path, double tolerance) {
+  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, tolerance);
+  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(request))), path, tolerance);
+  ExpectSamePath(UndoMirror(TraceIncrements(Mirror(request))), path, tolerance);
+}
+
 }  // namespace contact_path

@@ -30,6 +30,9 @@ TracedPath UndoReversal(TracedPath path);
 // the characteristic length, forces by the characteristic force of `expected`.
 void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double tolerance);
 
+// The path of this request is the same in other units, with all lists backwards, and mirrored.
+void ExpectSameInOtherWords(const TraceRequest& request, const TracedPath& path, double tolerance);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_TEST_SUPPORT_TRANSFORMATIONS_H_
