@@ -13,8 +13,6 @@
 namespace contact_path::beam_paths_test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // From (0, 0), of length 1 along x, EI = 1.
 TraceRequest Cantilever(int segments) {
   TraceRequest request;
@@ -98,13 +96,13 @@ TEST(BeamPaths, ElasticaByMpec) { EXPECT_LT(ErrorOfElastica(10, Method::kMpec), 
 TEST(BeamPaths, RollsUpTwice) {
   TraceRequest request = Cantilever(20);
   request.scene.beams[0].EA = 1e4;
-  request.scene.loads = {{"b", 0.0, 0.0, false, 4.0 * kPi}};
+  request.scene.loads = {{"b", 0.0, 0.0, false, 4.0 * M_PI}};
   request.options.max_increments = 3000;
-  request.options.stop = {{"b.rotation", ">", 4.0 * kPi}};
+  request.options.stop = {{"b.rotation", ">", 4.0 * M_PI}};
   const TracedPath path = TraceProved(request);
   for (const Increment& increment : path.increments) {
     // Each segment turns by M / EI times its length.
-    const double turn = increment.load_factor * 4.0 * kPi / 20.0;
+    const double turn = increment.load_factor * 4.0 * M_PI / 20.0;
     EXPECT_NEAR(Rotation(path, increment, "b"), 20.0 * turn, 1e-8);
     double x = 0.0, y = 0.0;
     for (int i = 0; i < 20; ++i) {
@@ -137,7 +135,7 @@ TEST(BeamPaths, ColumnBucklesAtEulersLoad) {
   request.options.stop = {{"load_factor", ">", 3.0}};
   const TracedPath path = TraceIncrements(request);
   const Increment bifurcation = IncrementsOfKind(path, IncrementKind::kBifurcation).at(0);
-  ExpectNear(LoadsOfKind(path, IncrementKind::kBifurcation), {kPi * kPi / 4.0}, 2e-3);
+  ExpectNear(LoadsOfKind(path, IncrementKind::kBifurcation), {M_PI * M_PI / 4.0}, 2e-3);
   EXPECT_FALSE(bifurcation.event.null_vector.empty());
 }
 
@@ -149,16 +147,16 @@ TEST(BeamPaths, BuckledColumn) {
   TraceRequest request = Cantilever(40);
   request.scene.loads = {Force("b", -1.0, 1e-6)};
   request.options.max_increments = 3000;
-  request.options.stop = {{"b.rotation", ">", 110.0 * kPi / 180.0}};
+  request.options.stop = {{"b.rotation", ">", 110.0 * M_PI / 180.0}};
   const TracedPath path = TraceProved(request);
   for (const auto& row : table) {
-    const double wanted = row.degrees * kPi / 180.0;
+    const double wanted = row.degrees * M_PI / 180.0;
     std::size_t i = 1;
     while (Rotation(path, path.increments[i], "b") < wanted) ++i;
     const Increment &before = path.increments[i - 1], &after = path.increments[i];
     const double from = Rotation(path, before, "b"), to = Rotation(path, after, "b");
     const double load = before.load_factor + (wanted - from) / (to - from) * (after.load_factor - before.load_factor);
-    EXPECT_NEAR(load / (kPi * kPi / 4.0), row.share, 1e-3) << row.degrees;
+    EXPECT_NEAR(load / (M_PI * M_PI / 4.0), row.share, 1e-3) << row.degrees;
   }
 }
 
@@ -249,7 +247,7 @@ TEST(BeamPaths, FrameOfManyBays) {
 // For small loads the ends of the arch stick if mu > |H / V| of linear theory, and slip otherwise.
 TEST(BeamPaths, EndsOfAnArchStickOrSlip) {
   for (const double degrees : {30.0, 60.0, 90.0, 120.0, 135.0, 160.0, 170.0}) {
-    const double a = degrees * kPi / 180.0, ratio = ThrustOfArch(a);
+    const double a = degrees * M_PI / 180.0, ratio = ThrustOfArch(a);
     for (const double factor : {0.9, 1.1}) {
       SCOPED_TRACE(std::to_string(degrees) + " degrees, friction " + std::to_string(factor) + " H / V");
       const TracedPath path = TraceVerified(RestingArch(a, factor * std::abs(ratio), 1e6, 16));
@@ -264,7 +262,7 @@ TEST(BeamPaths, EndsOfAnArchStickOrSlip) {
 
 // While both ends slip, nothing holds the arch sideways: it must not drift. It sags through its springing line.
 TEST(BeamPaths, ArchThatNothingHoldsSideways) {
-  TraceRequest request = RestingArch(kPi / 2.0, 0.4, 1e5, 16);
+  TraceRequest request = RestingArch(M_PI / 2.0, 0.4, 1e5, 16);
   request.scene.nodes[1].fixed_x = false;
   request.options.max_increments = 2000;
   request.options.stop = {{"crown.y", "<", -0.5}};

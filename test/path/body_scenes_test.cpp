@@ -14,10 +14,8 @@ namespace contact_path::body_scenes_test {
 namespace {
 
 constexpr double kExact = 2e-9;  // contacts of bodies give way by 1e-8 of their forces
-constexpr double kPi = 3.14159265358979323846;
-
 TEST(BodyScenes, LimitsInClosedForm) {
-  const double rolls = 2.0 * 0.2 / (std::tan(kPi / 12.0) - 0.2) - 1.0, climbed = (0.5 * 3.0 / 1.15 * 4.9 - 1.5) / 6.0;
+  const double rolls = 2.0 * 0.2 / (std::tan(M_PI / 12.0) - 0.2) - 1.0, climbed = (0.5 * 3.0 / 1.15 * 4.9 - 1.5) / 6.0;
   for (const auto& [scene, load, tolerance] :
        {std::tuple("held_disc", 0.4, 5e-9), std::tuple("ladder", climbed, 5e-8), std::tuple("three_discs", rolls, 5e-7),
         std::tuple("masonry_arch", 0.29661, 5e-6)}) {
@@ -31,7 +29,7 @@ TEST(BodyScenes, LimitsInClosedForm) {
 TEST(BodyScenes, AHeldDiscSlipsAtTheSameLoadWhicheverWayItIsTurned) {
   for (const double degrees : {17.0, 90.0, 230.9, 301.3}) {
     SCOPED_TRACE(degrees);
-    const TracedPath path = TraceProved(Rotate(ReadExample("held_disc"), degrees * kPi / 180.0), EndReason::kAtLimit);
+    const TracedPath path = TraceProved(Rotate(ReadExample("held_disc"), degrees * M_PI / 180.0), EndReason::kAtLimit);
     EXPECT_NEAR(LargestLoadFactor(path), 0.4, 5e-9);
   }
 }
@@ -111,11 +109,10 @@ TEST(BodyScenes, AStepLadderSlidesApart) {
 // before; their weights push aside, too. Limits without sliding are those of a linear program over the forces on the
 // corners.
 TraceRequest Arch(int blocks, double thickness) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "arch";
   const auto joint = [&](int i, double r) {
-    const double angle = kPi - kPi * i / blocks;
+    const double angle = M_PI - M_PI * i / blocks;
     return Eigen::Vector2d(r * std::cos(angle), r * std::sin(angle));
   };
   const double inner = 1.0 - 0.5 * thickness, outer = 1.0 + 0.5 * thickness;
@@ -148,8 +145,7 @@ TraceRequest Arch(int blocks, double thickness) {
     }
   }
   scene.obstacles.push_back({"ground", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.8});
-  request.options.at_limit = AtLimit::kStop;
-  return request;
+  return RequestUpToALimit(scene);
 }
 
 TEST(BodyScenes, ArchesOfBlocksAreThoseOfLinearPrograms) {

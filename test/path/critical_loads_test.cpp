@@ -4,62 +4,50 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <string>
+#include <limits>
 
+#include "support/beams.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 
 namespace contact_path::critical_loads_test {
 namespace {
 
 // The first increment that is not stable, or the last one.
-const Increment& LeavesStability(const TracedPath& path) {
+Increment LeavesStability(const TracedPath& path) {
   const auto found = std::find_if(path.increments.begin(), path.increments.end(),
                                   [](const Increment& of) { return of.stability.stability != Verdict::kStable; });
   return found == path.increments.end() ? path.increments.back() : *found;
 }
 
-// A rigid column of the length l on a pin with a spring k, under a dead load up to twice the critical one, k / l.
-// contacts: of its head with walls, "left" at the distance 0 and "right" far off.
-TracedPath Column(double l, double k, const std::string& contacts, const std::string& options) {
-  return TraceText(R"(
-scene:
-  name: column
-  bodies:
-  - {name: ground, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
-  - {name: column, x: 0.0, y: <l>}
-  nodes:
-  - {name: foot, x: 0.0, y: 0.0, body: column}
-  - {name: head, x: 0.0, y: <l>, body: column}
-  pins:
-  - {nodes: [ground, foot], stiffness: <k>}
-  obstacles:
-  - {name: left, nx: 1.0}
-  - {name: right, px: <far>, nx: -1.0}
-  contacts:
-)" + contacts + R"(
-program:
-- name: press
-  loads:
-  - {node: head, fy: -1.0}
-  target: <target>
-options: {)" + options +
-                       "}\n",
-                   {{"l", l}, {"k", k}, {"far", 0.9 * l}, {"target", 2.0 * k / l}});
+// A rigid column of the length l on a pin with a spring k, under a dead load up to twice the critical one, k / l,
+// between walls for its head, "left" at the distance 0 and "right" far off. Without contacts.
+TraceRequest Column(double l, double k, AtLimit at_limit, double step) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.bodies = {{"ground", 0.0, 0.0, true, true, true}, {"column", 0.0, l}};
+  scene.nodes = {NodeOf("column", "foot", 0.0, 0.0), NodeOf("column", "head", 0.0, l)};
+  scene.pins = {{{"ground", "foot"}, k}};
+  scene.obstacles = {{"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 0.0},
+                     {"right", ObstacleShape::kHalfPlane, 0.9 * l, 0.0, -1.0, 0.0}};
+  request.program = {LoadingStage({{"head", 0.0, -1.0}}, 2.0 * k / l)};
+  request.options.at_limit = at_limit;
+  request.options.step = step;
+  return request;
 }
 
 // Whatever the length of a step is, and where it ends.
 TEST(CriticalLoads, AStepMayEndOnABifurcation) {
   for (const double l : {0.7, 1.0, 1.3, 2.5})
     for (const double k : {1.0, 2.0, 17.0})
-      for (const char* step : {"0.02", "0.1", "0.013"}) {
+      for (const double step : {0.02, 0.1, 0.013}) {
         SCOPED_TRACE(testing::Message() << l << " " << k << " " << step);
-        const std::string right = "  - {node: head, obstacle: right}";
-        const TracedPath path = Column(l, k, right, std::string("at_limit: stop, step: ") + step);
+        TraceRequest request = Column(l, k, AtLimit::kStop, step);
+        request.scene.contacts = {{"head", "right"}};
+        const TracedPath path = TraceVerified(request);
         ASSERT_TRUE(path.result.reached) << path.result.message;
         ExpectNear(LoadsOfKind(path, IncrementKind::kBifurcation), {k / l}, 1e-9 * k / l);
         EXPECT_EQ(path.increments.back().stability.stability, Verdict::kStable);  // of the curve that crosses
-        ExpectNoFindings(path);
       }
 }
 
@@ -67,95 +55,66 @@ TEST(CriticalLoads, AStepMayEndOnABifurcation) {
 TEST(CriticalLoads, AColumnBesideAWall) {
   for (const double l : {0.7, 1.3})
     for (const double k : {1.1, 1.7e4})
-      for (const char* friction : {"0.0", "0.3"}) {
+      for (const double friction : {0.0, 0.3}) {
         SCOPED_TRACE(testing::Message() << l << " " << k << " " << friction);
-        const std::string walls = std::string("  - {node: head, obstacle: left, friction: ") + friction +
-                                  "}\n  - {node: head, obstacle: right}";
-        const TracedPath stops = Column(l, k, walls, "at_limit: stop, step: 0.0137");
-        EXPECT_EQ(stops.result.reason, EndReason::kAtLimit) << stops.result.message;
-        EXPECT_NEAR(LeavesStability(stops).load_factor, k / l, 1e-8 * k / l);
-        ExpectNoFindings(stops);
-        const TracedPath jumps = Column(l, k, walls, "at_limit: jump, step: 0.0137");
+        TraceRequest request = Column(l, k, AtLimit::kStop, 0.0137);
+        request.scene.contacts = {{"head", "left", "", "", friction}, {"head", "right"}};
+        EXPECT_NEAR(LeavesStability(TraceProved(request, EndReason::kAtLimit)).load_factor, k / l, 1e-8 * k / l);
+        request.options.at_limit = AtLimit::kJump;
+        const TracedPath jumps = TraceVerified(request);
         EXPECT_TRUE(jumps.result.reached) << jumps.result.message;
         EXPECT_NEAR(jumps.increments.back().contacts[1].gap, 0.0, 1e-7 * l);
-        ExpectNoFindings(jumps);
       }
 }
 
 // Of two guys without force one holds a mast that leans: EA / l^3 times the square of its height and of its foot.
 TEST(CriticalLoads, AMastWithGuysOfTheLengthThatTheyHave) {
-  for (const char* guys : {"tendons", "bars"})
+  for (const bool tendons : {true, false})
     for (const double EA : {50.0, 5e5}) {
-      SCOPED_TRACE(testing::Message() << guys << " " << EA);
-      const std::string sense = guys == std::string("bars") ? ", sense: tension" : "";
-      const std::string mast = R"(
-scene:
-  name: mast
-  bodies:
-  - {name: ground, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
-  - {name: mast, x: 0.0, y: 4.0}
-  nodes:
-  - {name: foot, x: 0.0, y: 0.0, body: mast}
-  - {name: head, x: 0.0, y: 4.0, body: mast}
-  - {name: left, x: -3.0, y: 0.0, fixed_x: true, fixed_y: true}
-  - {name: right, x: 3.0, y: 0.0, fixed_x: true, fixed_y: true}
-  pins:
-  - {nodes: [ground, foot]}
-  )" + std::string(guys) + R"(:
-  - {nodes: [left, head], EA: <EA>)" +
-                               sense + R"(}
-  - {nodes: [right, head], EA: <EA>)" +
-                               sense + R"(}
-program:
-- name: press
-  loads:
-  - {node: head, fy: -1.0}
-  target: <target>
-options: {at_limit: )";
-      const std::map<std::string, double> values = {{"EA", EA}, {"target", 0.6 * EA}};
+      SCOPED_TRACE(testing::Message() << tendons << " " << EA);
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.bodies = {{"ground", 0.0, 0.0, true, true, true}, {"mast", 0.0, 4.0}};
+      scene.nodes = {NodeOf("mast", "foot", 0.0, 0.0),
+                     NodeOf("mast", "head", 0.0, 4.0),
+                     {"left", -3.0, 0.0, true, true},
+                     {"right", 3.0, 0.0, true, true}};
+      scene.pins = {{{"ground", "foot"}}};
+      for (const char* end : {"left", "right"}) {
+        if (tendons)
+          scene.tendons.push_back({"", {end, "head"}, EA});
+        else
+          scene.bars.push_back({{end, "head"}, EA, 0.0, StrainMeasure::kBiot, BarSense::kTension});
+      }
+      request.program = {LoadingStage({{"head", 0.0, -1.0}}, 0.6 * EA)};
       const double critical = 4.0 * EA * 9.0 / 125.0;
-      const TracedPath path = TraceText(mast + "stop}\n", values), followed = TraceText(mast + "follow}\n", values);
-      EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
+      request.options.at_limit = AtLimit::kStop;
+      const TracedPath path = TraceProved(request, EndReason::kAtLimit);
       EXPECT_NEAR(LeavesStability(path).load_factor, critical, 1e-8 * critical);
+      request.options.at_limit = AtLimit::kFollow;
+      const TracedPath followed = TraceVerified(request);
       ASSERT_TRUE(followed.result.reached) << followed.result.message;
       EXPECT_EQ(followed.increments.back().stability.stability, Verdict::kUnstable);
-      ExpectNoFindings(followed);
     }
 }
 
 // Between two pads on springs of 9, at no distance: the column leans on one of them, and may do so from 10 on.
 TEST(CriticalLoads, AColumnBetweenPads) {
-  const TracedPath path = TraceText(R"(
-scene:
-  name: pads
-  bodies:
-  - {name: m, x: 0.0, y: 1.0}
-  - {name: g, x: 0.0, y: 0.0, fixed_rotation: true, fixed_x: true, fixed_y: true}
-  nodes:
-  - {name: foot, x: 0.0, y: 0.0, body: m}
-  - {name: wl, x: -1.0, y: 1.0, fixed_x: true, fixed_y: true}
-  - {name: wr, x: 1.0, y: 1.0, fixed_x: true, fixed_y: true}
-  - {name: pl, x: -0.1, y: 1.0, fixed_y: true}
-  - {name: pr, x: 0.1, y: 1.0, fixed_y: true}
-  pins:
-  - {nodes: [g, foot]}
-  bars:
-  - {nodes: [wl, pl], EA: 9.0}
-  - {nodes: [wr, pr], EA: 9.0}
-  obstacles:
-  - {name: fl, px: -0.1, py: 1.0, nx: -1.0, body: m}
-  - {name: fr, px: 0.1, py: 1.0, nx: 1.0, body: m}
-  contacts:
-  - {node: pl, obstacle: fl}
-  - {node: pr, obstacle: fr}
-program:
-- name: press
-  loads:
-  - {body: m, fy: -1.0}
-  target: 30.0
-options: {at_limit: stop}
-)");
-  EXPECT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
+  Scene scene;
+  scene.bodies = {{"m", 0.0, 1.0}, {"g", 0.0, 0.0, true, true, true}};
+  scene.nodes = {NodeOf("m", "foot", 0.0, 0.0),
+                 {"wl", -1.0, 1.0, true, true},
+                 {"wr", 1.0, 1.0, true, true},
+                 {"pl", -0.1, 1.0, false, true},
+                 {"pr", 0.1, 1.0, false, true}};
+  scene.pins = {{{"g", "foot"}}};
+  scene.bars = {{{"wl", "pl"}, 9.0}, {{"wr", "pr"}, 9.0}};
+  scene.obstacles = {{"fl", ObstacleShape::kHalfPlane, -0.1, 1.0, -1.0, 0.0},
+                     {"fr", ObstacleShape::kHalfPlane, 0.1, 1.0, 1.0, 0.0}};
+  for (Obstacle& face : scene.obstacles) face.body = "m";
+  scene.contacts = {{"pl", "fl"}, {"pr", "fr"}};
+  const TracedPath path =
+      TraceProved(RequestUpToALimit(scene, {LoadingStage({LoadOnBody("m", 0.0, -1.0)}, 30.0)}), EndReason::kAtLimit);
   EXPECT_NEAR(path.increments.back().load_factor, 10.0, 2e-7);
   EXPECT_EQ(path.increments.back().stability.stability, Verdict::kUnstable);
 }
@@ -163,23 +122,16 @@ options: {at_limit: stop}
 // A cantilever that buckles under a dead load goes on along the curve that is stable, whatever its axis is.
 TEST(CriticalLoads, AColumnThatIsTurned) {
   for (const double angle : {0.0, 0.3, 0.55, 1.2})
-    for (const char* step : {"0.0", "0.005"}) {
+    for (const double step : {0.0, 0.005}) {
       SCOPED_TRACE(testing::Message() << angle << " " << step);
-      const TracedPath path = TraceText(std::string(R"(
-scene:
-  name: cantilever
-  nodes:
-  - {name: root, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
-  - {name: tip, x: -<s>, y: <c>}
-  beams:
-  - {nodes: [root, tip], EA: 1000000.0, EI: 1.0, segments: 20}
-program:
-- name: press
-  loads:
-  - {node: tip, fx: <s>, fy: -<c>}
-  target: 2.6
-options: {at_limit: stop, step: )") + step + "}\n",
-                                        {{"s", std::sin(angle)}, {"c", std::cos(angle)}});
+      const double s = std::sin(angle), c = std::cos(angle);
+      TraceRequest request;
+      request.scene.nodes = {{"root", 0.0, 0.0, true, true, true}, {"tip", -s, c}};
+      request.scene.beams = {Between("column", "root", "tip", 1e6, 1.0, 20)};
+      request.program = {LoadingStage({{"tip", s, -c}}, 2.6)};
+      request.options.at_limit = AtLimit::kStop;
+      request.options.step = step;
+      const TracedPath path = TraceIncrements(request);
       EXPECT_TRUE(path.result.reached) << path.result.message;
       EXPECT_EQ(path.increments.back().stability.stability, Verdict::kStable);
     }
@@ -191,29 +143,18 @@ TEST(CriticalLoads, ARigidMachinePushesWhatSticks) {
   for (int i = 0; i < 60; ++i) {
     const double angle = 0.05 + 0.1 * i;
     SCOPED_TRACE(angle);
-    const TracedPath path =
-        TraceText(R"(
-scene:
-  name: slider
-  nodes:
-  - {name: a, x: <ax>, y: <ay>, fixed_x: true, fixed_y: true}
-  - {name: b, x: 0.0, y: 0.0}
-  bars:
-  - {nodes: [a, b], EA: 1.0}
-  loads:
-  - {node: b, fx: <s>, fy: <ax>, constant: true}
-  obstacles:
-  - {name: floor, nx: <ay>, ny: <c>, friction: 0.3}
-  contacts:
-  - {node: b, obstacle: floor}
-program:
-- name: push
-  loads:
-  - {node: b, fx: <c>, fy: <s>}
-  target: 1.0
-options: {machine_stiffness: .inf, at_limit: stop}
-)",
-                  {{"c", std::cos(angle)}, {"s", std::sin(angle)}, {"ax", -std::cos(angle)}, {"ay", -std::sin(angle)}});
+    const double s = std::sin(angle), c = std::cos(angle);
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.nodes = {{"a", -c, -s, true, true}, {"b", 0.0, 0.0}};
+    scene.bars = {{{"a", "b"}, 1.0}};
+    scene.loads = {{"b", s, -c, true}};
+    scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, -s, c, 0.3}};
+    scene.contacts = {{"b", "floor"}};
+    request.program = {LoadingStage({{"b", c, s}}, 1.0)};
+    request.options.machine_stiffness = std::numeric_limits<double>::infinity();
+    request.options.at_limit = AtLimit::kStop;
+    const TracedPath path = TraceIncrements(request);
     ASSERT_TRUE(path.result.reached) << path.result.message;
     EXPECT_NEAR(path.increments.back().dissipation, 0.21, 1e-12);
   }
@@ -224,32 +165,18 @@ options: {machine_stiffness: .inf, at_limit: stop}
 TEST(CriticalLoads, AMachineLetsAColumnGo) {
   for (const double K : {0.1, 1.0}) {
     SCOPED_TRACE(K);
-    const TracedPath path = TraceText(R"(
-scene:
-  name: between_springs
-  nodes:
-  - {name: b, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true}
-  - {name: t, x: 0.0, y: 1.0}
-  - {name: s, x: -5.0, y: 1.0, fixed_x: true, fixed_y: true}
-  - {name: s2, x: 5.0, y: 1.0, fixed_x: true, fixed_y: true}
-  bars:
-  - {nodes: [b, t], EA: 100.0}
-  - {nodes: [s, t], EA: 5.0}
-  - {nodes: [s2, t], EA: 5.0}
-  obstacles:
-  - {name: w, px: 0.4, nx: -1.0}
-  - {name: w2, px: -0.4, nx: 1.0}
-  contacts:
-  - {node: t, obstacle: w}
-  - {node: t, obstacle: w2}
-program:
-- name: press
-  loads:
-  - {node: t, fy: -1.0}
-  target: 3.0
-options: {at_limit: jump, machine_stiffness: <K>}
-)",
-                                      {{"K", K}});
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.nodes = {
+        {"b", 0.0, 0.0, true, true}, {"t", 0.0, 1.0}, {"s", -5.0, 1.0, true, true}, {"s2", 5.0, 1.0, true, true}};
+    scene.bars = {{{"b", "t"}, 100.0}, {{"s", "t"}, 5.0}, {{"s2", "t"}, 5.0}};
+    scene.obstacles = {{"w", ObstacleShape::kHalfPlane, 0.4, 0.0, -1.0, 0.0},
+                       {"w2", ObstacleShape::kHalfPlane, -0.4, 0.0, 1.0, 0.0}};
+    scene.contacts = {{"t", "w"}, {"t", "w2"}};
+    request.program = {LoadingStage({{"t", 0.0, -1.0}}, 3.0)};
+    request.options.at_limit = AtLimit::kJump;
+    request.options.machine_stiffness = K;
+    const TracedPath path = TraceIncrements(request);
     EXPECT_TRUE(path.result.reached) << path.result.message;
     ASSERT_EQ(IncrementsOfKind(path, IncrementKind::kJump).size(), 1U);
     const Increment jump = IncrementsOfKind(path, IncrementKind::kJump)[0];

@@ -15,7 +15,6 @@
 namespace contact_path::curved_paths_test {
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr double kSound = 1e-9;  // residuals, of the characteristic force
 constexpr double kExact = 1e-9;  // closed forms
 
@@ -36,15 +35,13 @@ TracedPath TraceSound(const TraceRequest& request) {
 constexpr double kFriction = 0.3;
 
 TraceRequest Peg() {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"p", std::sin(-0.2), std::cos(-0.2), false, false}};
   scene.superelements = {{{"p"}, {1.3, 0.0, 0.0, 0.8}, {0.2, -0.3}}};
   scene.loads = {{"p", 1.0, -0.2, false}};
   scene.obstacles = {Circle("peg", 0.0, 0.0, 1.0, kFriction)};
   scene.contacts = {{"p", "peg"}};
-  request.options.stop = {{"p.y", "<", -0.1}};
-  return request;
+  return RequestUntil({"p.y", "<", -0.1}, scene);
 }
 
 // Equilibrium of a node that slides towards +t at the angle a from the top: load factor and normal reaction.
@@ -103,8 +100,7 @@ TEST(CurvedPaths, DissipationOnThePegIsTheIntegralOverTheWay) {
 // Nodes on the upper half of a disc, equally far apart; beyond them a soft bar to a support on the left and a stiff one
 // to a support on the right, which pulls. All kinks are equal at the start.
 TraceRequest Rope(int nodes, double wrap) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   const double kink = wrap / nodes;
   const auto place = [&](int i) {
     const double angle = kink * (i - 0.5 * (nodes - 1));
@@ -122,8 +118,7 @@ TraceRequest Rope(int nodes, double wrap) {
   scene.support_motions = {{"pulled", std::cos(slope), -std::sin(slope)}};
   scene.obstacles = {Circle("drum", 0.0, 0.0, 1.0, kFriction)};
   for (int i = 0; i < nodes; ++i) scene.contacts.push_back({name(i), "drum"});
-  request.options.stop = {{"load_factor", ">", 2e-4}};
-  return request;
+  return RequestUntil({"load_factor", ">", 2e-4}, scene);
 }
 
 // Of a node that slides clockwise on a disc around the origin: the tension in the bar behind it times this is the one
@@ -136,7 +131,7 @@ double Gain(const Eigen::Vector2d& behind, const Eigen::Vector2d& node, const Ei
 
 TEST(CurvedPaths, ARopeOverADrumHasTheTensionsOfItsKinks) {
   for (const int nodes : {4, 8}) {
-    const TracedPath path = TraceSound(Rope(nodes, kPi));
+    const TracedPath path = TraceSound(Rope(nodes, M_PI));
     const Increment& last = path.increments.back();
     for (const ContactRecord& contact : last.contacts) EXPECT_EQ(contact.state, ContactState::kSlipPlus);
     const auto place = [&](const Increment& increment, const std::string& node) {
@@ -154,7 +149,7 @@ TEST(CurvedPaths, ARopeOverADrumHasTheTensionsOfItsKinks) {
     const double ratio = tension("n" + std::to_string(nodes - 1), "pulled", 1e4) / tension("held", "n0", 20.0);
     EXPECT_NEAR(ratio / gain, 1.0, 1e-7);
     // The rope has moved by what the soft bar has become longer, and its end kinks are no longer quite the others.
-    const double tangent = kFriction * std::tan(0.5 * kPi / nodes);
+    const double tangent = kFriction * std::tan(0.5 * M_PI / nodes);
     EXPECT_NEAR(ratio / std::pow((1.0 + tangent) / (1.0 - tangent), nodes), 1.0, 1.5e-3);
   }
 }
@@ -258,15 +253,13 @@ TEST(CurvedPaths, AStageBeginsOnADrumThatHasTurned) {
 // ----- the end of an open curve -----
 
 TEST(CurvedPaths, APressedNodeIsLostAtTheEndOfATable) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"p", 0.0, 0.0, false, false}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
   scene.loads = {{"p", 0.0, -1.0, true}, {"p", 1.0, 0.0, false}};
   scene.obstacles = {Through(ObstacleShape::kPolyline, {-1.0, 0.0, 0.7, 0.0}, 0.2)};
   scene.contacts = {{"p", "curve"}};
-  request.options.stop = {{"p.x", ">", 2.0}};
-  const TracedPath path = TraceIncrements(request);
+  const TracedPath path = TraceIncrements(RequestUntil({"p.x", ">", 2.0}, scene));
   ExpectEnd(path, EndReason::kPathEnd, "p@curve is lost");
   EXPECT_NEAR(path.increments.back().positions[0], 0.7, kExact);
   EXPECT_NEAR(path.increments.back().load_factor, 0.9, kExact);

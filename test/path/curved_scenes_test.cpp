@@ -15,7 +15,6 @@
 namespace contact_path::curved_scenes_test {
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr double kSame = 1e-8;  // of events, in the units of the scenes, which are near 1
 
 Eigen::Vector2d Place(const TracedPath& path, const Increment& increment, const std::string& node) {
@@ -89,7 +88,7 @@ TEST(CurvedScenes, Rope) {
     }
     if (forth == kNodes || back == kNodes) {
       // The kinks at both ends are not quite the others.
-      const double tangent = kMu * std::tan(0.5 * kPi / kNodes);
+      const double tangent = kMu * std::tan(0.5 * M_PI / kNodes);
       const double closed = std::pow((1.0 + tangent) / (1.0 - tangent), kNodes);
       EXPECT_NEAR(std::log(ratio) / std::log(closed), forth == kNodes ? 1.0 : -1.0, 0.04);
     }
@@ -154,7 +153,7 @@ TEST(CurvedScenes, SnapHook) {
     EXPECT_NEAR(P / by_hand, 1.0, 0.013) << increment.index;
     // Where the edges of the die are straight: with mu against the motion.
     for (const double degrees : {25.0, -60.0}) {
-      const double slope = std::tan(degrees * kPi / 180.0);
+      const double slope = std::tan(degrees * M_PI / 180.0);
       const double mu = contact.state == ContactState::kSlipPlus ? kMu : -kMu;
       const double closed = (mu + slope) / (1.0 - mu * slope);
       const bool on_edge = degrees > 0.0 ? increment.stage == 1 && in <= 0.11110 && y < 0.0381 : y < 0.0299 && F < 0.0;
@@ -222,7 +221,7 @@ TEST(CurvedScenes, PegInHole) {
 // The corner sticks on the fillet where friction holds a force that does not move it aside.
 TEST(CurvedScenes, PegInHoleWedgesWithMoreFriction) {
   const double share = AsideByY(1.5) / AsideByX(1.5);
-  const double limit = std::tan(kPi / 6.0 - std::atan(share));
+  const double limit = std::tan(M_PI / 6.0 - std::atan(share));
   EXPECT_NEAR(limit, 0.357, 1e-3);
   for (const double mu : {0.98 * limit, 1.02 * limit}) {
     TraceRequest request = ReadExample("peg_in_hole");

@@ -29,8 +29,7 @@ TEST(RingOnRing, HasTheSameEventsWithOtherSteps) {
 
 // A foot on two springs is pressed down and dragged. The ground: a half plane, or fixed nodes in line.
 TraceRequest FootOn(bool surface) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"l", -1.0, 1.0, true, true}, {"r", 1.0, 1.1, true, true}, {"foot", 0.05, 0.0, false, false}};
   scene.bars = {{{"l", "foot"}, 10.0}, {{"r", "foot"}, 8.0}};
   if (surface) {
@@ -43,8 +42,7 @@ TraceRequest FootOn(bool surface) {
     scene.obstacles = {{"ground", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
     scene.contacts = {{"foot", "ground"}};
   }
-  request.program = {LoadingStage({{"foot", 0.0, -2.0}}), LoadingStage({{"foot", 7.0, 0.0}})};
-  return request;
+  return RequestOf(scene, {LoadingStage({{"foot", 0.0, -2.0}}), LoadingStage({{"foot", 7.0, 0.0}})});
 }
 
 TEST(FixedSurface, InLineIsAHalfPlane) {
@@ -259,8 +257,7 @@ TEST(SymmetricSurface, BearsAsTheWholeOne) {
 // A block of `columns` elements pressed flush on a wider one, of twice as long elements: every second node stands where
 // edges of the surface meet. aside: of the upper block.
 TraceRequest FlushBlocks(int columns, double aside) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.materials = {ElasticMaterial("rubber", 1.0, 0.3, MaterialModel::kLinear)};
   BoundarySurface top{"top", {}}, table{"table", {}};
   Group pressed{"pressed", {}};
@@ -290,8 +287,7 @@ TraceRequest FlushBlocks(int columns, double aside) {
   scene.loads[0].surface = "top";
   scene.loads[0].py = -1.0;
   scene.contacts = {{"", "", "pressed", "table"}};
-  request.options.stop = {{"load_factor", ">", 0.01}};
-  return request;
+  return RequestUntil({"load_factor", ">", 0.01}, scene);
 }
 
 // Whether nodes stand where edges meet or beside, the block is borne, and by hardly other reactions.

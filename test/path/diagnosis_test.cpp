@@ -29,14 +29,12 @@ TEST(CollapsedPart, NamesTheOneThatHasShrunkMost) {
 }
 
 TEST(CollapsedPart, NamesTheSpanOfATendon) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"a", -1.0, 0.0}, {"b", 1.0, 0.0}, {"c", 3.0, 0.0, true, true}, {"d", -3.0, 0.0, true, true}};
   scene.superelements = {{{"a"}, {1.0, 0.0, 0.0, 1.0}}, {{"b"}, {1.0, 0.0, 0.0, 1.0}}};
   scene.tendons = {{"cord", {"d", "a", "b", "c"}, 10.0}};
   scene.loads = {{"a", 1.0, 0.0}, {"b", -1.0, 0.0}};
-  request.options.stop = {{"load_factor", ">", 10.0}};
-  const TracedPath path = TraceIncrements(request);
+  const TracedPath path = TraceIncrements(RequestUntil({"load_factor", ">", 10.0}, scene));
   EXPECT_FALSE(path.result.reached);
   EXPECT_NE(path.result.message.find("what tendon cord (a, b) has between two nodes has shrunk to "), std::string::npos)
       << path.result.message;

@@ -122,8 +122,7 @@ TEST(Eyes, GoesSlackAsAWhole) {
 
 // A finger of two beams and a rib, whose cord passes three eyes: units, order and mirror change nothing.
 TraceRequest Finger() {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "finger";
   scene.nodes = {{"root", 0.0, 0.0, true, true, true},
                  {"joint", 0.0, 1.0},
@@ -136,8 +135,7 @@ TraceRequest Finger() {
                  Between("arm", "joint", "rib", 1e3, 100.0, 1), Between("end", "tip", "nail", 1e3, 100.0, 3)};
   scene.tendons = {{"cord", {"hand", "base", "rib", "nail"}, 500.0, 0.0, 0.2}};
   scene.support_motions = {{"hand", 0.1, -0.5}};
-  request.options.stop = {{"load_factor", ">", 0.3}};
-  return request;
+  return RequestUntil({"load_factor", ">", 0.3}, scene);
 }
 
 TEST(Eyes, OfAFingerAreTheSameInOtherWords) {

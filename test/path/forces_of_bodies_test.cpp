@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/parts.h"
 #include "support/traced_path.h"
 
 namespace contact_path::forces_of_bodies_test {
@@ -12,30 +13,18 @@ namespace {
 // A plate comes from half a radius beside a disc, moves it on by half a radius to a wall, and is to go on by `beyond`
 // radii.
 TracedPath Clamped(double radius, double weight, double beyond) {
-  return TraceText(R"(
-scene:
-  name: clamped
-  bodies:
-  - {name: disc, x: 0.0, y: <r>}
-  - {name: plate, x: <away>, y: 0.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
-  obstacles:
-  - {name: floor, shape: half_plane, ny: 1.0, friction: 0.3}
-  - {name: wall, shape: half_plane, px: -<away>, nx: 1.0, friction: 0.3}
-  - {name: face, shape: half_plane, px: <away>, nx: -1.0, body: plate, friction: 0.3}
-  - {name: rim, shape: circle, py: <r>, radius: <r>, body: disc}
-  contacts:
-  - {obstacles: [rim, floor]}
-  - {obstacles: [rim, wall]}
-  - {obstacles: [rim, face]}
-  loads:
-  - {body: disc, by: -<w>, constant: true}
-program:
-- name: press
-  support_motions:
-  - {body: plate, dx: -<r>}
-  target: <target>
-)",
-                   {{"r", radius}, {"away", 1.5 * radius}, {"w", weight}, {"target", 1.0 + beyond}});
+  Scene scene;
+  const double away = 1.5 * radius;
+  scene.bodies = {{"disc", 0.0, radius}, {"plate", away, 0.0, true, true, true}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3},
+                     {"wall", ObstacleShape::kHalfPlane, -away, 0.0, 1.0, 0.0, 0.3},
+                     {"face", ObstacleShape::kHalfPlane, away, 0.0, -1.0, 0.0, 0.3},
+                     Circle("rim", 0.0, radius, radius, 0.0, "disc")};
+  scene.obstacles[2].body = "plate";
+  scene.contacts = {Rolls("rim", "floor"), Rolls("rim", "wall"), Rolls("rim", "face")};
+  scene.loads = {LoadOnBody("disc", 0.0, 0.0, true)};
+  scene.loads[0].by = -weight;
+  return TraceIncrements(RequestOf(scene, {MovingStage({{"", -radius, 0.0, 0.0, "", "plate"}}, 1.0 + beyond)}));
 }
 
 TEST(ForcesOfBodies, ADiscThatIsClampedEndsThePath) {
@@ -56,57 +45,24 @@ TEST(ForcesOfBodies, ADiscThatIsClampedEndsThePath) {
 TEST(ForcesOfBodies, AWeightIsAsLargeAsItIs) {
   for (const double weight : {1e-3, 1.0, 1e4, 1e7}) {
     SCOPED_TRACE(weight);
-    const TracedPath path = TraceText(R"(
-scene:
-  name: tilted
-  bodies:
-  - {name: block, x: 0.0, y: 1.0}
-  nodes:
-  - {name: lower, x: -0.5, y: 0.0, body: block}
-  - {name: upper, x: 0.5, y: 0.0, body: block}
-  obstacles:
-  - {name: floor, shape: half_plane, ny: 1.0, friction: 0.4}
-  contacts:
-  - {node: lower, obstacle: floor}
-  - {node: upper, obstacle: floor}
-  loads:
-  - {body: block, by: -<w>, constant: true}
-program:
-- name: tilt
-  obstacle_motions:
-  - {obstacle: floor, turn: 1.0}
-  target: 0.3
-)",
-                                      {{"w", weight}});
-    ASSERT_TRUE(path.result.reached) << path.result.message;
+    TraceRequest request;
+    request.scene = BoxOnFloor(1.0, 1.0, 0.4, weight);
+    request.program = {{"", {}, {}, {{"floor", 0.0, 0.0, 1.0}}, 0.3}};
+    const TracedPath path = TraceProved(request);
     const Increment& last = path.increments.back();
     EXPECT_NEAR(last.contacts[0].rn, (0.5 * std::cos(0.3) + std::sin(0.3)) * weight, 1e-8 * weight);
     EXPECT_NEAR(last.contacts[1].rn, (0.5 * std::cos(0.3) - std::sin(0.3)) * weight, 1e-8 * weight);
-    ExpectNoFindings(path);
   }
 }
 
 // A node on a spring is carried by a plane that turns by 1 about the origin.
 TEST(ForcesOfBodies, APlaneThatTurnsIsTheSameInOtherUnits) {
   const auto path_with = [](double length) {
-    return TraceText(R"(
-scene:
-  name: turns
-  nodes:
-  - {name: q, x: <x>, y: 0.0}
-  superelements:
-  - {nodes: [q], stiffness: [0.05, 0.0, 0.0, 0.05]}
-  obstacles:
-  - {name: plane, shape: half_plane, ny: 1.0, friction: 0.2}
-  contacts:
-  - {node: q, obstacle: plane}
-program:
-- name: turn
-  obstacle_motions:
-  - {obstacle: plane, turn: 1.0}
-  target: 1.0
-)",
-                     {{"x", length}});
+    TraceRequest request;
+    request.scene = NodeOnFloor("q", 0.05, 0.2);
+    request.scene.nodes[0].x = length;
+    request.program = {{"", {}, {}, {{"floor", 0.0, 0.0, 1.0}}, 1.0}};
+    return TraceIncrements(request);
   };
   const TracedPath path = path_with(1.0);
   EXPECT_TRUE(path.result.reached) << path.result.message;
@@ -126,27 +82,13 @@ program:
 TEST(ForcesOfBodies, ARopeIsAPartThatHolds) {
   for (const double EA : {1e2, 1e4, 1e6}) {
     SCOPED_TRACE(EA);
-    const TracedPath path = TraceText(R"(
-scene:
-  name: drawn
-  nodes:
-  - {name: block, x: -1.0, y: 0.0}
-  - {name: peg, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true}
-  - {name: weight, x: 0.0, y: -1.0}
-  obstacles:
-  - {name: floor, shape: half_plane, ny: 1.0, friction: 0.4}
-  contacts:
-  - {node: block, obstacle: floor}
-  loads:
-  - {node: block, fy: -5.0, constant: true}
-  - {node: weight, fy: -0.5, constant: true}
-  - {node: weight, fy: -1.0}
-  tendons:
-  - {nodes: [block, peg, weight], EA: <EA>, friction: 0.25}
-options:
-  at_limit: stop
-)",
-                                      {{"EA", EA}});
+    Scene scene;
+    scene.nodes = {{"block", -1.0, 0.0}, {"peg", 0.0, 0.0, true, true}, {"weight", 0.0, -1.0}};
+    scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.4}};
+    scene.contacts = {{"block", "floor"}};
+    scene.loads = {{"block", 0.0, -5.0, true}, {"weight", 0.0, -0.5, true}, {"weight", 0.0, -1.0}};
+    scene.tendons = {{"", {"block", "peg", "weight"}, EA, 0.0, 0.25}};
+    const TracedPath path = TraceVerified(RequestUpToALimit(scene));
     const Increment& slips = FirstThat(path, [](const Increment& increment) {
       return increment.kind == IncrementKind::kContactEvent && increment.load_factor > 0.0;
     });

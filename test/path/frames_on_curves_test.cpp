@@ -18,8 +18,6 @@ namespace {
 
 const unsigned kSeeds = Seeds(100);
 constexpr int kMostIncrements = 1500;
-constexpr double kPi = 3.14159265358979323846;
-
 // A disc, or a polygon with fillets, or a closed spline.
 Obstacle Indenter(Random* random, double x, double y) {
   Obstacle obstacle;
@@ -32,9 +30,9 @@ Obstacle Indenter(Random* random, double x, double y) {
   obstacle.shape = random->Number(0.0, 1.0) < 0.5 ? ObstacleShape::kPolyline : ObstacleShape::kSpline;
   obstacle.closed = true;
   const int corners = 3 + static_cast<int>(random->Number(0.0, 3.99));
-  const double first = random->Number(0.0, 2.0 * kPi);
+  const double first = random->Number(0.0, 2.0 * M_PI);
   for (int i = 0; i < corners; ++i) {
-    const double radius = random->Number(0.18, 0.3), angle = first - 2.0 * kPi * i / corners;
+    const double radius = random->Number(0.18, 0.3), angle = first - 2.0 * M_PI * i / corners;
     obstacle.points.insert(obstacle.points.end(), {x + radius * std::cos(angle), y + radius * std::sin(angle)});
   }
   return obstacle;

@@ -34,12 +34,7 @@ constexpr double kPress = 2.0, kSpring = 3.0;
 TraceRequest Slider(const Units& units, double friction, double rate) {
   TraceRequest request;
   Scene& scene = request.scene;
-  scene.name = "slider";
-  scene.nodes = {{"b", 0.0, 0.0}};
-  const double k = kSpring * units.force / units.length;
-  scene.superelements = {{{"b"}, {k, 0.0, 0.0, k}}};
-  scene.obstacles = {HalfPlane("floor", 0.0, 1.0, friction)};
-  scene.contacts = {{"b", "floor"}};
+  scene = NodeOnFloor("b", kSpring * units.force / units.length, friction);
   scene.loads = {{"b", 0.0, -kPress * units.force, true}};
   scene.friction_changes = {{"floor", rate / units.load_factor}};
   return request;
@@ -167,12 +162,8 @@ TEST(FrictionChanges, APathIsResumed) {
   request.scene.obstacle_motions = {{"floor", 1.0, 0.0}};
   request.options.stop = {{"load_factor", ">", 1.0}};
   const TracedPath path = TraceProved(request);
-  for (const std::size_t kept : {std::size_t{3}, path.increments.size() - 2}) {
-    const TracedPath resumed = ResumeAfter(kept, path);
-    ExpectSameEvents(resumed, path, kExact);
-    EXPECT_NEAR(resumed.increments.back().dissipation, path.increments.back().dissipation, kExact);
-    EXPECT_NEAR(resumed.increments.back().contacts[0].rt, path.increments.back().contacts[0].rt, kExact);
-  }
+  for (const std::size_t kept : {std::size_t{3}, path.increments.size() - 2})
+    ExpectSamePath(ResumeAfter(kept, path), path, kExact);
 }
 
 // A box under its weight slides down a slope where mu = tan(slope).
@@ -186,8 +177,7 @@ TEST(FrictionChanges, ABoxSlidesWhereFrictionIsTheSlope) {
         const auto at = [&](double along, double above) {
           return std::pair(units.length * (c * along - s * above), units.length * (s * along + c * above));
         };
-        TraceRequest request;
-        Scene& scene = request.scene;
+        Scene scene;
         const auto [x, y] = at(0.0, 0.1);
         scene.bodies = {{"box", x, y}};
         for (const auto& [name, along] : {std::pair("back", -1.0), std::pair("front", 1.0)}) {
@@ -198,8 +188,8 @@ TEST(FrictionChanges, ABoxSlidesWhereFrictionIsTheSlope) {
         scene.obstacles = {HalfPlane("slope", -s, c, 1.0)};
         scene.loads = {LoadOnBody("box", 0.0, -units.force, true)};
         scene.friction_changes = {{"slope", -0.5 / units.load_factor}};
-        request.options.at_limit = AtLimit::kStop;
-        const TracedPath path = TraceProved(mirrored ? Mirror(request) : request, EndReason::kAtLimit);
+        const TracedPath path =
+            TraceProved(mirrored ? Mirror(RequestUpToALimit(scene)) : RequestUpToALimit(scene), EndReason::kAtLimit);
         EXPECT_NEAR(LargestLoadFactor(path) / units.load_factor, (1.0 - std::tan(slope)) / 0.5, kGives);
       }
 }
@@ -232,8 +222,7 @@ TEST(FrictionChanges, ADiscSlipsOutOfAGrip) {
   for (const Units& units : kUnits)
     for (const double weight : {0.3, 1.1}) {
       SCOPED_TRACE(testing::Message() << "length " << units.length << ", weight " << weight);
-      TraceRequest request;
-      Scene& scene = request.scene;
+      Scene scene;
       scene.bodies = {{"disc", 0.0, 0.0}};
       scene.obstacles = {Circle("rim", 0.0, 0.0, units.length, 0.9, "disc")};
       const double k = 4.0 * units.force / units.length;
@@ -245,8 +234,7 @@ TEST(FrictionChanges, ADiscSlipsOutOfAGrip) {
       }
       scene.loads.push_back(LoadOnBody("disc", 0.0, -weight * units.force, true));
       scene.friction_changes = {{"rim", -0.4 / units.load_factor}};
-      request.options.at_limit = AtLimit::kStop;
-      const TracedPath path = TraceProved(request, EndReason::kAtLimit);
+      const TracedPath path = TraceProved(RequestUpToALimit(scene), EndReason::kAtLimit);
       EXPECT_NEAR(LargestLoadFactor(path) / units.load_factor, (0.9 - 0.5 * weight) / 0.4, kGives);
     }
 }
@@ -255,8 +243,7 @@ TEST(FrictionChanges, ADiscSlipsOutOfAGrip) {
 TEST(FrictionChanges, ARollingDiscSlips) {
   for (const double radius : {1e-3, 1.0, 1e3}) {
     SCOPED_TRACE(radius);
-    TraceRequest request;
-    Scene& scene = request.scene;
+    Scene scene;
     scene.bodies = {{"disc", 0.0, radius}};
     scene.nodes = {NodeOf("disc", "hub", 0.0, radius)};
     scene.superelements = {{{"hub"}, {2.0 / radius, 0.0, 0.0, 0.0}}};
@@ -264,8 +251,7 @@ TEST(FrictionChanges, ARollingDiscSlips) {
     scene.contacts = {Rolls("rim", "floor")};
     scene.loads = {LoadOnBody("disc", 0.0, -1.0, true, -0.2 * radius)};
     scene.friction_changes = {{"floor", -0.25}};
-    request.options.max_increments = 60;
-    const TracedPath path = TraceVerified(request);
+    const TracedPath path = TraceVerified(RequestWithin(60, scene));
     EXPECT_NEAR(LargestLoadFactor(path), 1.2, kGives) << path.result.message;
   }
 }

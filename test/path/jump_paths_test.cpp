@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact_path/path/end.h"
+#include "support/parts.h"
 #include "support/random_scene.h"
 #include "support/seeds.h"
 #include "support/traced_path.h"
@@ -29,15 +30,13 @@ std::vector<Increment> JumpsOf(const TracedPath& path) { return IncrementsOfKind
 // A von Mises truss with Green-Lagrange bars, half span 1, rise h = 1.2,
 // EA = 1, c = EA / l0^3.
 TraceRequest SnappingTruss() {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "snapping_truss";
   scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, 1.2, true, false}, {"right", 1.0, 0.0, true, true}};
   for (const char* foot : {"left", "right"})
     scene.bars.push_back({{foot, "apex"}, 1.0, 0.0, StrainMeasure::kGreenLagrange});
   scene.loads = {{"apex", 0.0, -1.0, false}};
-  request.options.stop = {{"apex.y", "<", -1.5}};
-  return request;
+  return RequestUntil({"apex.y", "<", -1.5}, scene);
 }
 
 TEST(JumpPaths, SnapThroughInClosedForm) {

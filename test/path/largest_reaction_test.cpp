@@ -3,23 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "contact_path/path/model.h"
+#include "support/parts.h"
 
 namespace contact_path::largest_reaction_test {
 namespace {
 
-// A node on springs of 1 above a floor.
-Scene NodeOnFloor() {
-  Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
-  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"p", 1.0, 0.0}};
-  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
-  scene.contacts = {{"p", "floor"}};
-  return scene;
-}
-
 TEST(LargestReactionSoFar, IsThatOfTheTraceAndOfTheStage) {
-  const Scene scene = NodeOnFloor();
+  Scene scene = NodeOnFloor("p", 1.0, 0.5);
+  scene.loads = {{"p", 1.0, 0.0}};
   const Model model(scene, CharacteristicScales(scene));
   const double unit = model.contacts[0]->ForceUnit();
   PathPoint point = model.InitialPoint();

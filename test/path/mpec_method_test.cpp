@@ -4,6 +4,7 @@
 
 #include "contact_path/path/preload.h"
 #include "contact_path/path/work.h"
+#include "support/parts.h"
 #include "support/reference_cases.h"
 
 namespace contact_path::mpec_method_test {
@@ -99,12 +100,8 @@ TEST_F(SlidingBarMethod, CancelledGivesNoIncrement) {
 class StickSlipCycle : public testing::Test {
  protected:
   StickSlipCycle() {
-    scene_.name = "stick_slip";
-    scene_.nodes = {{"p", 0.0, 0.0, false, false}};
-    scene_.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+    scene_ = NodeOnFloor("p", 1.0, 0.3);
     scene_.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
-    scene_.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
-    scene_.contacts = {{"p", "floor"}};
   }
 
   // From *point until the load factor passes `target`; every increment is on the expected line. Returns the

@@ -83,15 +83,9 @@ TEST(MpecBodies, ADiscTurnsInARightAngle) {
   for (const double radius : {1e-3, 200.0})
     for (const auto& [friction, weight] : {std::pair(0.1, 1e-6), {0.8, 1e6}}) {
       SCOPED_TRACE(testing::Message() << radius << ' ' << friction << ' ' << weight);
-      const double y = std::sqrt(2.0) * radius, limit = friction * std::sqrt(2.0) / (1.0 + friction * friction);
+      const double limit = friction * std::sqrt(2.0) / (1.0 + friction * friction);
       TraceRequest request;
-      Scene& scene = request.scene;
-      scene.bodies = {{"disc", 0.0, y}};
-      scene.obstacles = {Circle("rim", 0.0, y, radius, 0.0, "disc"),
-                         {"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 1.0, friction},
-                         {"right", ObstacleShape::kHalfPlane, 0.0, 0.0, -1.0, 1.0, friction}};
-      scene.contacts = {Rolls("rim", "left"), Rolls("rim", "right")};
-      scene.loads = {LoadOnBody("disc", 0.0, -weight, true), LoadOnBody("disc", 0.0, 0.0, false, weight * radius)};
+      request.scene = DiscInARightAngle(radius, friction, weight);
       request.options.stop = {{"disc.rotation", ">", 0.3}};
       request.options.step = 0.2;
       const TracedPath path = TraceByMpec(request);
@@ -114,12 +108,8 @@ TEST(MpecBodies, ABoxSlidesOrTips) {
     for (const auto& [friction, width] : {std::pair(0.2, 1.0), {0.8, 1.0}}) {
       SCOPED_TRACE(testing::Message() << "size " << size << ", mu " << friction << ", width " << width);
       TraceRequest request;
-      Scene& scene = request.scene;
-      scene.bodies = {{"box", 0.0, size}};
-      scene.nodes = {NodeOf("box", "a", -0.5 * width * size, 0.0), NodeOf("box", "b", 0.5 * width * size, 0.0)};
-      scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
-      scene.contacts = {{"a", "floor"}, {"b", "floor"}};
-      scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("box", 1.0, 0.0)};
+      request.scene = BoxOnFloor(width * size, size, friction, 1.0);
+      request.scene.loads.push_back(LoadOnBody("box", 1.0, 0.0));
       request.options.max_increments = 12;
       request.options.step = 0.2;
       EXPECT_NEAR(LargestLoadFactor(TraceByMpec(request)), std::min(friction, 0.5 * width), kCorner);
@@ -156,8 +146,7 @@ TEST(MpecBodies, ThreeDiscsRollApart) {
 
 // Rods that are pinned to each other and to both ends, with springs at the pins between, carry a load in the middle.
 TraceRequest PinnedChain(double size, double spring) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "pinned_chain";
   constexpr int kRods = 3;
   for (int i = 0; i <= kRods; ++i) {
@@ -173,8 +162,7 @@ TraceRequest PinnedChain(double size, double spring) {
   const double holds = 3.0 * spring / (size * size);
   scene.superelements = {{{"right"}, {holds, 0.0, 0.0, holds}}};
   scene.loads = {LoadOnBody("rod1", 0.0, -spring / size), LoadOnBody("rod3", 0.0, -0.7 * spring / size)};
-  request.options.max_increments = 30;
-  return request;
+  return RequestWithin(30, scene);
 }
 
 TEST(MpecPins, AChainOnSpringsHasThePathOfBranch) {
@@ -209,10 +197,7 @@ TEST(MpecFrictionChanges, ANodeBearsWhatFrictionIs) {
       const double k = kSpring * force / length;
       TraceRequest request;
       Scene& scene = request.scene;
-      scene.nodes = {{"b", 0.0, 0.0}};
-      scene.superelements = {{{"b"}, {k, 0.0, 0.0, k}}};
-      scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, kFriction}};
-      scene.contacts = {{"b", "floor"}};
+      scene = NodeOnFloor("b", k, kFriction);
       scene.loads = {{"b", 0.0, -kPress * force, true}};
       scene.friction_changes = {{"floor", rate / load}};
       scene.obstacle_motions = {{"floor", length / load, 0.0}};

@@ -17,8 +17,6 @@
 namespace contact_path::own_surface_test {
 namespace {
 
-const double kPi = std::acos(-1.0);
-
 // The force of the supports that move, along their motion.
 double DrivingForce(const TracedPath& path, const Increment& increment) {
   return ResidualCheck(path.request.scene).DrivingForce(StateOf(increment));
@@ -119,13 +117,11 @@ TEST(OwnSurface, ARingIsAsTwoHalves) {
 TEST(OwnSurface, ARingIsCrushedAsItsOwnMirrorImage) {
   const TracedPath path = TraceProved(ReadExample("crushed_ring"));
   const Increment& first = path.increments[1];
-  const double plunger = 1.0 / 100.0, ring = kPi / 4.0 - 2.0 / kPi;  // how far they give way per force
+  const double plunger = 1.0 / 100.0, ring = M_PI / 4.0 - 2.0 / M_PI;  // how far they give way per force
   const double share = (2.0 - PositionY(path, first, "top")) / (2.2 * first.load_factor);
   EXPECT_NEAR(share, ring / (ring + plunger), 0.01);
   // Of the elastica: docs/scenes.md.
-  const std::vector<Increment> events = IncrementsOfKind(path, IncrementKind::kContactEvent);
-  ASSERT_FALSE(events.empty());
-  EXPECT_NEAR(events[0].load_factor, 0.89821, 0.005);
+  EXPECT_NEAR(LoadsOfKind(path, IncrementKind::kContactEvent).at(0), 0.89821, 0.005);
   const Increment* touching = nullptr;
   for (const Increment& increment : path.increments) {
     if (increment.stage != 1) break;
@@ -163,11 +159,10 @@ TEST(OwnSurface, ARingHasTheSameEventsWithOtherSteps) {
 // Two legs of a hairpin, open at the left: the end of the upper leg is pressed onto the lower leg, and drawn along
 // it.
 TraceRequest Hairpin() {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"low", 0.0, 0.0, true, true}, {"bend", 2.0, 0.0, true, true}, {"up", 2.0, 0.4}, {"tip", 0.0, 0.4}};
   scene.nodes[0].fixed_rotation = scene.nodes[1].fixed_rotation = true;
-  scene.beams = {Between("b0", "low", "bend", 100.0, 10.0, 10), Between("b1", "bend", "up", 100.0, 0.05, 6, kPi),
+  scene.beams = {Between("b0", "low", "bend", 100.0, 10.0, 10), Between("b1", "bend", "up", 100.0, 0.05, 6, M_PI),
                  Between("b2", "up", "tip", 100.0, 0.05, 10)};
   BoundarySurface inner{"inner", {"low"}};
   for (const Beam& beam : scene.beams) {
@@ -177,15 +172,13 @@ TraceRequest Hairpin() {
   inner.radius = 0.02;
   scene.surfaces = {inner};
   scene.contacts = {{"tip", "", "", "inner", 0.2}};
-  request.program = {LoadingStage({{"tip", 0.0, -0.05}}), LoadingStage({{"tip", 0.05, 0.0}})};
-  return request;
+  return RequestOf(scene, {LoadingStage({{"tip", 0.0, -0.05}}), LoadingStage({{"tip", 0.05, 0.0}})});
 }
 
 // A foot on two springs is pressed onto the ground and pushed along it. The surface goes on from the end of the ground
 // by two soft bars back to the foot: the last patch of the ground, next but one to that of the foot, is left out.
 TEST(OwnSurface, EndsWhereANodeComesNextToItself) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"l", -1.0, 1.0, true, true}, {"r", 1.0, 1.1, true, true}, {"foot", 0.0, 0.0}, {"back", 0.6, 0.6}};
   scene.bars = {{{"l", "foot"}, 10.0}, {{"r", "foot"}, 8.0}};
   BoundarySurface surface{"ground", {}};
@@ -201,8 +194,8 @@ TEST(OwnSurface, EndsWhereANodeComesNextToItself) {
   }
   scene.surfaces = {surface};
   scene.contacts = {{"foot", "", "", "ground", 0.3}};
-  request.program = {LoadingStage({{"foot", 0.0, -2.0}}), LoadingStage({{"foot", 14.0, 0.0}})};
-  const TracedPath path = TraceIncrements(request);
+  const TracedPath path =
+      TraceIncrements(RequestOf(scene, {LoadingStage({{"foot", 0.0, -2.0}}), LoadingStage({{"foot", 14.0, 0.0}})}));
   ExpectEnd(path, EndReason::kPathEnd, "foot@ground is lost");
   EXPECT_NEAR(PositionX(path, path.increments.back(), "foot"), 0.8, 1e-9);  // where the patch of g5 begins
   EXPECT_GT(Contact(path, path.increments.back(), "foot@ground").rn, 0.1);

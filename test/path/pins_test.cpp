@@ -53,8 +53,7 @@ TEST(Pins, APendulumHangsInTheDirectionOfItsForce) {
 
 // Two rods of the lengths 1 and 0.8 with weights in the middle of the first and at the end of the second.
 TraceRequest DoublePendulum() {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "double_pendulum";
   scene.bodies = {{"upper", 0.0, -0.5}, {"lower", 0.0, -1.8}};
   scene.nodes = {{"hook", 0.0, 0.0, true, true},
@@ -64,8 +63,7 @@ TraceRequest DoublePendulum() {
   scene.pins = {{{"top", "hook"}}, {{"above", "below"}}};
   scene.loads = {LoadOnBody("upper", 0.0, -1.0, true), LoadOnBody("lower", 0.0, -0.7, true),
                  LoadOnBody("lower", 1.0, 0.0)};
-  request.options.stop = {{"load_factor", ">", 2.0}};
-  return request;
+  return RequestUntil({"load_factor", ">", 2.0}, scene);
 }
 
 TEST(Pins, ADoublePendulum) {
@@ -98,9 +96,10 @@ TEST(Pins, AFourBarLinkageWithASpring) {
     const Vector2d crank(0.0, 1.0), rocker(2.0, 0.0), joint(2.0, 1.2), middle(1.0, 1.1), force(1.0, -0.3);
     Scene scene;
     scene.bodies = {{"crank", 0.0, 0.5}, {"coupler", middle.x(), middle.y()}, {"rocker", 2.0, 0.6}, Ground(1.0, 0.0)};
-    scene.nodes = {NodeOf("ground", "o", 0.0, 0.0),  NodeOf("ground", "p", 2.0, 0.0),   NodeOf("crank", "c0", 0.0, 0.0),
-                   NodeOf("crank", "c1", 0.0, 1.0),  NodeOf("coupler", "k0", 0.0, 1.0), NodeOf("coupler", "k1", 2.0, 1.2),
-                   NodeOf("rocker", "r1", 2.0, 1.2), NodeOf("rocker", "r0", 2.0, 0.0)};
+    scene.nodes = {NodeOf("ground", "o", 0.0, 0.0),   NodeOf("ground", "p", 2.0, 0.0),
+                   NodeOf("crank", "c0", 0.0, 0.0),   NodeOf("crank", "c1", 0.0, 1.0),
+                   NodeOf("coupler", "k0", 0.0, 1.0), NodeOf("coupler", "k1", 2.0, 1.2),
+                   NodeOf("rocker", "r1", 2.0, 1.2),  NodeOf("rocker", "r0", 2.0, 0.0)};
     scene.pins = {{{"o", "c0"}, kSpring, angle, "drive"}, {{"c1", "k0"}}, {{"k1", "r1"}}, {{"r0", "p"}}};
     scene.loads = {LoadOnBody("coupler", force.x(), force.y())};
     const TracedPath path = TraceUntil({"crank.rotation", "<", -0.8}, scene);
@@ -133,20 +132,21 @@ TEST(Pins, AFourBarLinkageWithASpring) {
 // Two bodies from (-2, 0) and (2, 0) to a crown at (0, 1): a weight P = s on the left one at x = -1, a push H = s / 2
 // on the right one at the height 0.5.
 TEST(Pins, AnArchOfThreeHinges) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.bodies = {{"left", -1.0, 0.5}, {"right", 1.0, 0.5}};
-  scene.nodes = {{"a", -2.0, 0.0, true, true},         {"b", 2.0, 0.0, true, true},
-                 NodeOf("left", "left_foot", -2.0, 0.0),   NodeOf("left", "left_crown", 0.0, 1.0),
-                 NodeOf("right", "right_crown", 0.0, 1.0), NodeOf("right", "right_foot", 2.0, 0.0)};
+  scene.nodes = {{"a", -2.0, 0.0, true, true},
+                 {"b", 2.0, 0.0, true, true},
+                 NodeOf("left", "left_foot", -2.0, 0.0),
+                 NodeOf("left", "left_crown", 0.0, 1.0),
+                 NodeOf("right", "right_crown", 0.0, 1.0),
+                 NodeOf("right", "right_foot", 2.0, 0.0)};
   scene.pins = {{{"left_foot", "a"}}, {{"left_crown", "right_crown"}}, {{"right_foot", "b"}}};
   scene.loads = {LoadOnBody("left", 0.0, -1.0), LoadOnBody("right", 0.5, 0.0)};
-  request.options.stop = {{"load_factor", ">", 1.0}};
   for (const bool swapped : {false, true}) {
     if (swapped)
       for (Pin& pin : scene.pins) std::swap(pin.nodes[0], pin.nodes[1]);
     const double sign = swapped ? -1.0 : 1.0;
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceProved(RequestUntil({"load_factor", ">", 1.0}, scene));
     for (const Increment& increment : path.increments) {
       const double P = increment.load_factor, H = 0.5 * P;
       const double right = (P + 0.5 * H) / 4.0, thrust = -2.0 * right - 0.5 * H;
@@ -271,8 +271,7 @@ TEST(Pins, AStandingRodFallsOver) {
 // A rigid link of the length l pushes a slider against a spring: P = K l (cos a - cos a0) tan a, K = EA / l0, and
 // jumps.
 TraceRequest Toggle() {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "toggle";
   const double x = std::cos(0.4), y = std::sin(0.4);
   scene.bodies = {{"link", -0.5 * x, 0.5 * y}};
@@ -284,8 +283,7 @@ TraceRequest Toggle() {
   scene.bars = {{{"slider", "wall"}, 2.0}};
   scene.pins = {{{"high", "apex"}}, {{"low", "slider"}}};
   scene.loads = {{"apex", 0.0, -0.1}};
-  request.options.stop = {{"load_factor", ">", 0.8}};
-  return request;
+  return RequestUntil({"load_factor", ">", 0.8}, scene);
 }
 
 TEST(Pins, ARigidToggleSnaps) {
@@ -306,19 +304,18 @@ TEST(Pins, ARigidToggleSnaps) {
 
 // A crank and a rod that push a slider, in stages, with springs.
 TraceRequest SliderCrank() {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "slider_crank";
   scene.bodies = {{"crank", 0.0, 0.5}, {"rod", 0.8, 0.7}};
-  scene.nodes = {{"o", 0.0, 0.0, true, true}, {"slider", 2.0, 0.0},           {"wall", 4.0, 0.0, true, true},
-                 NodeOf("crank", "c0", 0.0, 0.0), NodeOf("crank", "c1", 0.0, 1.0),    NodeOf("rod", "k0", 0.0, 1.0),
+  scene.nodes = {{"o", 0.0, 0.0, true, true},     {"slider", 2.0, 0.0},
+                 {"wall", 4.0, 0.0, true, true},  NodeOf("crank", "c0", 0.0, 0.0),
+                 NodeOf("crank", "c1", 0.0, 1.0), NodeOf("rod", "k0", 0.0, 1.0),
                  NodeOf("rod", "k1", 2.0, 0.0),   {"above", 2.0, 3.0, true, true}};
   scene.bars = {{{"slider", "wall"}, 2.0}, {{"slider", "above"}, 4.0}};
   scene.pins = {{{"o", "c0"}}, {{"c1", "k0"}, 0.2, 0.1}, {{"k1", "slider"}, 0.0, 0.0, "wrist"}};
   scene.loads = {LoadOnBody("rod", 0.0, -0.01, true)};
-  request.program = {LoadingStage({LoadOnBody("rod", 0.2, 0.0)}),
-                     MovingStage({{"wall", -0.3, 0.0}, {"o", 0.0, 0.2}}), UnloadingStage()};
-  return request;
+  return RequestOf(scene, {LoadingStage({LoadOnBody("rod", 0.2, 0.0)}),
+                           MovingStage({{"wall", -0.3, 0.0}, {"o", 0.0, 0.2}}), UnloadingStage()});
 }
 
 TEST(Pins, AreTheSameInOtherWords) {
@@ -334,15 +331,8 @@ TEST(Pins, GoOnFromAnIncrementAsIfNothingHadBeen) {
   for (const TraceRequest& request : {DoublePendulum(), Toggle(), SliderCrank()}) {
     SCOPED_TRACE(request.scene.name);
     const TracedPath path = TraceIncrements(request);
-    for (const std::size_t after : {std::size_t{4}, path.increments.size() / 2, path.increments.size() - 3}) {
-      const std::vector<Increment> all = ResumeAfter(after, path).increments;
-      ASSERT_EQ(all.size(), path.increments.size());
-      for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t k = 0; k < all[i].pins.size(); ++k) {
-          EXPECT_NEAR(all[i].pins[k].rx, path.increments[i].pins[k].rx, kSame) << i;
-          EXPECT_NEAR(all[i].pins[k].ry, path.increments[i].pins[k].ry, kSame) << i;
-        }
-    }
+    for (const std::size_t after : {std::size_t{4}, path.increments.size() / 2, path.increments.size() - 3})
+      ExpectSamePath(ResumeAfter(after, path), path, kSame);
   }
 }
 
@@ -360,8 +350,7 @@ TEST(Pins, StatesBetweenAreFoundAnew) {
 
 // A box on a rough floor is pulled by a rigid link that is pinned to it, with 0.01 W + s: it slides at mu W.
 TEST(Pins, ABoxIsPulledByALink) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.bodies = {{"box", 0.0, 0.1}, {"link", 1.5, 0.1}};
   scene.nodes = {NodeOf("box", "a", -0.5, 0.0), NodeOf("box", "b", 0.5, 0.0), NodeOf("box", "eye", 0.5, 0.1),
                  NodeOf("link", "end", 0.5, 0.1)};
@@ -369,9 +358,7 @@ TEST(Pins, ABoxIsPulledByALink) {
   scene.contacts = {{"a", "floor"}, {"b", "floor"}};
   scene.pins = {{{"eye", "end"}}};
   scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("link", 0.01, 0.0, true), LoadOnBody("link", 1.0, 0.0)};
-  request.options.max_increments = 100;
-  const TracedPath path = TraceVerified(request);
-  ASSERT_FALSE(path.increments.empty()) << path.result.message;
+  const TracedPath path = TraceVerified(RequestWithin(100, scene));
   EXPECT_NEAR(LargestLoadFactor(path), 0.29, kGives) << path.result.message;
   for (const Increment& increment : path.increments)
     EXPECT_NEAR(increment.pins[0].rx, 0.01 + increment.load_factor, kGives);
@@ -379,15 +366,15 @@ TEST(Pins, ABoxIsPulledByALink) {
 
 // Supports cannot move apart what a rigid body holds together.
 TEST(Pins, DoNotGiveWayToSupports) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.bodies = {{"link", 0.5, 0.0}};
-  scene.nodes = {
-      {"f", 0.0, 0.0, true, true}, {"g", 1.0, 0.0, true, true}, NodeOf("link", "p", 0.0, 0.0), NodeOf("link", "q", 1.0, 0.0)};
+  scene.nodes = {{"f", 0.0, 0.0, true, true},
+                 {"g", 1.0, 0.0, true, true},
+                 NodeOf("link", "p", 0.0, 0.0),
+                 NodeOf("link", "q", 1.0, 0.0)};
   scene.pins = {{{"p", "f"}}, {{"q", "g"}}};
   scene.support_motions = {{"g", 0.1, 0.0}};
-  request.options.stop = {{"load_factor", ">", 1.0}};
-  const TracedPath path = TraceProved(request, EndReason::kNumericalFailure);
+  const TracedPath path = TraceProved(RequestUntil({"load_factor", ">", 1.0}, scene), EndReason::kNumericalFailure);
   EXPECT_FALSE(path.result.reached);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/scene_index.h"
@@ -44,9 +43,7 @@ TEST(PointsOfBodies, ALoadKeepsItsDirection) {
         SCOPED_TRACE(testing::Message() << l << ' ' << k << ' ' << aside);
         const TracedPath path = TraceProved(Column(l, k, aside));
         if (aside == 0.0) {
-          const std::vector<Increment> found = IncrementsOfKind(path, IncrementKind::kBifurcation);
-          ASSERT_GE(found.size(), 1u);
-          EXPECT_NEAR(found[0].load_factor * l / k, 1.0, kExact);
+          EXPECT_NEAR(LoadsOfKind(path, IncrementKind::kBifurcation).at(0) * l / k, 1.0, kExact);
           continue;
         }
         for (const Increment& increment : path.increments) {
@@ -118,8 +115,7 @@ TEST(PointsOfBodies, CornersPressOnASurface) {
 
 // A rigid plug, wider than the place between two springs by 2 d, is pulled out at 2 mu N.
 TraceRequest PressFit(double d, double friction) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "press_fit";
   scene.bodies = {{"plug", 0.0, 0.5}};
   scene.nodes = {{"l", -1.0, 0.5, false, true},
@@ -136,8 +132,7 @@ TraceRequest PressFit(double d, double friction) {
   scene.obstacles = {left, right};
   scene.contacts = {{"l", "left"}, {"r", "right"}};
   scene.loads = {{"head", 0.0, 1.0}};
-  request.options.at_limit = AtLimit::kStop;
-  return request;
+  return RequestUpToALimit(scene);
 }
 
 TEST(PointsOfBodies, APressFitIsPulledOut) {
@@ -163,8 +158,7 @@ TEST(PointsOfBodies, ARingIsPutOnAPeg) {
     for (const double d : {1e-4, 0.05}) {
       SCOPED_TRACE(testing::Message() << EA << ' ' << d);
       constexpr int kBeams = 24;
-      TraceRequest request;
-      Scene& scene = request.scene;
+      Scene scene;
       const auto name = [](int i) { return "n" + std::to_string(i % kBeams); };
       for (int i = 0; i < kBeams; ++i) {
         const double angle = 2.0 * M_PI * i / kBeams;
@@ -181,8 +175,7 @@ TEST(PointsOfBodies, ARingIsPutOnAPeg) {
       }
       scene.obstacles = {Circle("peg", 0.0, 0.0, 1.0 + d, 0.2)};
       scene.loads = {{"n0", 0.0, 1.0}};
-      request.options.max_increments = 3;
-      const TracedPath path = TraceVerified(request);
+      const TracedPath path = TraceVerified(RequestWithin(3, scene));
       ASSERT_FALSE(path.increments.empty()) << path.result.message;
       EXPECT_NEAR(SumOfNormals(path.increments[0]) / (96.0 * std::sin(M_PI / 48.0) * EA * d), 1.0, kExact);
     }
@@ -193,15 +186,8 @@ TEST(PointsOfBodies, ADiscTurnsInARightAngle) {
   for (const double radius : {1e-3, 1.0, 200.0})
     for (const double friction : {0.1, 0.3, 0.8}) {
       SCOPED_TRACE(testing::Message() << radius << ' ' << friction);
-      const double y = std::sqrt(2.0) * radius;
       TraceRequest request;
-      Scene& scene = request.scene;
-      scene.bodies = {{"disc", 0.0, y}};
-      scene.obstacles = {Circle("rim", 0.0, y, radius, 0.0, "disc"),
-                         {"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 1.0, friction},
-                         {"right", ObstacleShape::kHalfPlane, 0.0, 0.0, -1.0, 1.0, friction}};
-      scene.contacts = {Rolls("rim", "left"), Rolls("rim", "right")};
-      scene.loads = {LoadOnBody("disc", 0.0, -1.0, true), LoadOnBody("disc", 0.0, 0.0, false, radius)};
+      request.scene = DiscInARightAngle(radius, friction, 1.0);
       request.options.at_limit = AtLimit::kStop;
       const TracedPath path = TraceVerified(request);
       ASSERT_FALSE(path.increments.empty()) << path.result.message;

@@ -17,9 +17,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-const double kPi = std::acos(-1.0);
 constexpr int kEdges = 1000;
-const double kHalfTurn = kPi / kEdges;  // of an edge, seen from the centre
+const double kHalfTurn = M_PI / kEdges;  // of an edge, seen from the centre
 constexpr double kRadius = 1.0;
 constexpr double kFriction = 0.3;
 constexpr double kSound = 1e-9;       // residuals, of the characteristic force
@@ -70,8 +69,7 @@ struct Springs {
   Vector2d Force(const Vector2d& x) const { return stiffness.cwiseProduct(x - rest); }
 };
 TraceRequest NodeAt(double angle, double distance, const Springs& springs, const Obstacle& disc) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   const Vector2d place = At(angle, distance);
   scene.nodes = {{"p", place.x(), place.y(), false, false}};
   scene.superelements = {
@@ -79,8 +77,7 @@ TraceRequest NodeAt(double angle, double distance, const Springs& springs, const
   scene.obstacles = {disc};
   scene.obstacles[0].friction = kFriction;
   scene.contacts = {{"p", "curve"}};
-  request.options.max_increments = 20000;
-  return request;
+  return RequestWithin(20000, scene);
 }
 
 TracedPath TraceSound(const TraceRequest& request) {
@@ -204,7 +201,7 @@ const Springs kDrumSprings = {{1.0, 1.0}, {0.0, 0.5}};
 TraceRequest Turned(double distance, const Obstacle& disc, Accuracy accuracy) {
   TraceRequest request = NodeAt(0.0, distance, kDrumSprings, disc);
   request.scene.obstacle_motions = {{"curve", 0.0, 0.0, -1.0, 0.0, 0.0}};
-  request.options.stop = {{"load_factor", ">", 2.0 * kPi + 0.5}};
+  request.options.stop = {{"load_factor", ">", 2.0 * M_PI + 0.5}};
   request.options.accuracy = accuracy;
   return request;
 }

@@ -334,11 +334,8 @@ TEST_P(EachMethod, UnloadingTakesTheBeltBack) {
 // P falls to 0 it sticks until P = 2 u - 0.5 = 0.5, then slips back to u = 0.25, in one stage or in several.
 TEST_P(EachMethod, UnloadingLeavesAResidualDisplacement) {
   TraceRequest request;
-  request.scene.nodes = {{"p", 0.0, 0.0, false, false}};
-  request.scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
+  request.scene = NodeOnFloor("p", 2.0, 0.5);
   request.scene.loads = {{"p", 0.0, -1.0, true}};
-  request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
-  request.scene.contacts = {{"p", "floor"}};
   request.program = {{"pull", {{"p", 1.0, 0.0}}, {}, {}, 1.5}};
   const double tolerance = GetParam() == Method::kBranch ? kRounding : 1e-6;
   for (const std::vector<double>& parts : std::vector<std::vector<double>>{{0.0}, {1.0}, {0.5, 0.25, 1.0}}) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact_path/verify/verify_path.h"
+#include "support/parts.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -15,12 +16,7 @@ constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
 constexpr double kRounding = 1e-12;
 
 Scene Block(double side, double friction_of_floor) {
-  Scene scene;
-  scene.name = "block";
-  scene.nodes = {{"b", 0.0, 0.0, false, false}};
-  scene.superelements = {{{"b"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.obstacles = {{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction_of_floor}};
-  scene.contacts = {{"b", "floor"}};
+  Scene scene = NodeOnFloor("b", 1.0, friction_of_floor);
   scene.loads = {{"b", side, -1.0, true}};
   return scene;
 }

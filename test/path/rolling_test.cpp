@@ -28,8 +28,7 @@ TEST(Rolling, ADiscRollsUntilItSlips) {
     for (const double friction : {0.05, 0.4}) {
       SCOPED_TRACE(testing::Message() << "radius " << radius << ", mu " << friction);
       constexpr double kStiffness = 2.0;
-      TraceRequest request;
-      Scene& scene = request.scene;
+      Scene scene;
       AddDisc("disc", 0.0, radius, radius, 0.0, &scene);
       scene.nodes = {NodeOf("disc", "hub", 0.0, radius)};
       scene.superelements = {{{"hub"}, {kStiffness / radius, 0.0, 0.0, 0.0}}};
@@ -37,8 +36,7 @@ TEST(Rolling, ADiscRollsUntilItSlips) {
       scene.contacts = {Rolls("rim_disc", "floor")};
       scene.contacts[0].friction = friction;
       scene.loads = {LoadOnBody("disc", 0.0, -1.0, true), LoadOnBody("disc", 0.0, 0.0, false, -radius)};
-      request.options.max_increments = 60;
-      const TracedPath path = TraceVerified(request);
+      const TracedPath path = TraceVerified(RequestWithin(60, scene));
       for (const Increment& increment : path.increments) {
         const double x = increment.positions[0] / radius;
         EXPECT_NEAR(x, increment.load_factor / kStiffness, kExact);
@@ -56,8 +54,7 @@ TEST(Rolling, ADiscRollsRoundADrum) {
     for (const double drum : {1.5, 40.0}) {
       SCOPED_TRACE(testing::Message() << (inside ? "inside " : "outside ") << drum);
       const double radius = 0.5, away = inside ? radius - drum : drum + radius;
-      TraceRequest request;
-      Scene& scene = request.scene;
+      Scene scene;
       AddDisc("disc", 0.0, away, radius, 0.0, &scene);
       scene.nodes = {NodeOf("disc", "hub", 0.0, away), {"wall", 3.0, away, true, true}};
       scene.bars = {{{"hub", "wall"}, 5.0}};
@@ -65,8 +62,7 @@ TEST(Rolling, ADiscRollsRoundADrum) {
       scene.obstacles.back().inside = inside;
       scene.contacts = {Rolls("rim_disc", "drum")};
       scene.loads = {LoadOnBody("disc", 0.0, -1.0, true), LoadOnBody("disc", 0.0, 0.0, false, -0.5)};
-      request.options.max_increments = 20;
-      const TracedPath path = TraceVerified(request);
+      const TracedPath path = TraceVerified(RequestWithin(20, scene));
       ASSERT_GT(path.increments.size(), 10U) << path.result.message;
       double farthest = 0.0;
       for (const Increment& increment : path.increments) {
@@ -88,8 +84,7 @@ TEST(Rolling, ThreeDiscsHoldByFriction) {
     for (const auto& [of_discs, of_floor, holds] : {std::tuple(1.001, 1.5, true), std::tuple(1.5, 1.001, true),
                                                     std::tuple(0.999, 1.5, false), std::tuple(1.5, 0.999, false)}) {
       SCOPED_TRACE(testing::Message() << "radius " << radius << ", " << of_discs << ", " << of_floor);
-      TraceRequest request;
-      Scene& scene = request.scene;
+      Scene scene;
       AddDisc("a", -radius, radius, radius, of_discs * between, &scene);
       AddDisc("b", radius, radius, radius, of_discs * between, &scene);
       AddDisc("c", 0.0, (1.0 + std::sqrt(3.0)) * radius, radius, 0.0, &scene);
@@ -97,8 +92,7 @@ TEST(Rolling, ThreeDiscsHoldByFriction) {
       scene.contacts = {Rolls("rim_a", "floor"), Rolls("rim_b", "floor"), Rolls("rim_a", "rim_b"),
                         Rolls("rim_c", "rim_a"), Rolls("rim_c", "rim_b")};
       for (const RigidBody& body : scene.bodies) scene.loads.push_back(LoadOnBody(body.name, 0.0, -1.0));
-      request.options.stop = {{"load_factor", ">", 2.0}};
-      const TracedPath path = TraceVerified(request);
+      const TracedPath path = TraceVerified(RequestUntil({"load_factor", ">", 2.0}, scene));
       ASSERT_FALSE(path.increments.empty()) << path.result.message;
       if (holds)
         EXPECT_NEAR(path.increments.back().load_factor, 2.0, kExact) << path.result.message;

@@ -171,8 +171,7 @@ TEST(StopAtValue, FinalValuesOfAStudyAreSmooth) {
 
 // Two halves of a slender steel arch, on a rough floor, pressed by their crown. unit: of length; 1: mm.
 TraceRequest SteelArch(double unit, double friction) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   const double span = 1000.0 / unit;
   scene.nodes = {{"crown", 0.0, span, true, true, true}, {"l", -span, 0.0}, {"r", span, 0.0}};
   for (const char* const side : {"l", "r"}) {
@@ -182,8 +181,7 @@ TraceRequest SteelArch(double unit, double friction) {
   }
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   scene.support_motions = {{"crown", 0.0, -0.1 * span}};
-  request.options.max_increments = 1000;
-  return request;
+  return RequestWithin(1000, scene);
 }
 
 // Forces of slender beams are known to rounding of their stiffness. Values that both sides come to at once, and values

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/decisions.h"
+#include "support/parts.h"
 #include "support/seeds.h"
 #include "support/traced_path.h"
 
@@ -27,7 +28,7 @@ std::vector<double> EventLoads(const TracedPath& path, std::size_t most) {
 // Two rough walls at right angles hold a node until the force on it leaves the hull of both friction cones.
 TEST(SingularScenes, WedgeHoldsANodeAsFarAsBothConesReach) {
   const double slides = 1.3 / 0.7;
-  ForEachAccuracy(ReadLongData("wedge"), EndReason::kStopCriterion, [&](const TracedPath& path) {
+  ForEachAccuracy(ReadLongData("wedge"), EndReason::kStopCriterion, kResidual, [&](const TracedPath& path) {
     for (const Increment& increment : path.increments) {
       EXPECT_EQ(increment.solve.nullity, 0) << increment.index;
       if (increment.load_factor > slides + 1e-13) continue;
@@ -37,25 +38,24 @@ TEST(SingularScenes, WedgeHoldsANodeAsFarAsBothConesReach) {
     ASSERT_FALSE(events.empty());
     EXPECT_NEAR(events.back(), slides, 1e-13);
     EXPECT_EQ(path.increments.back().contacts[1].state, ContactState::kSlipPlus);
-  }, kResidual);
+  });
 }
 
 // With the load P at c: P = (x - 1) + (x - l) / l, with the length l of the chain.
 TEST(SingularScenes, SlackBarsBecomeTautUnderConstantLoads) {
   const double chain = 2.0 * std::hypot(0.5, 0.05);
-  ForEachAccuracy(ReadLongData("slack_chain"), EndReason::kStopCriterion, [&](const TracedPath& path) {
+  ForEachAccuracy(ReadLongData("slack_chain"), EndReason::kStopCriterion, kResidual, [&](const TracedPath& path) {
     for (const Increment& increment : path.increments) {
       const double load = 0.1 * (1.0 + increment.load_factor);
       EXPECT_NEAR(PositionX(path, increment, "c"), (load + 2.0) / (1.0 + 1.0 / chain), 1e-14);
       EXPECT_NEAR(PositionX(path, increment, "m"), 0.5 * PositionX(path, increment, "c"), 1e-14);
     }
-  }, kResidual);
+  });
 }
 
 TEST(SingularScenes, AReactionThatBeginsWithTheThirdPower) {
-  ForEachAccuracy(ReadLongData("third_power"), EndReason::kStopCriterion, [&](const TracedPath& path) {
-    EXPECT_EQ(path.increments.back().event.number, 0);
-  }, kResidual);
+  ForEachAccuracy(ReadLongData("third_power"), EndReason::kStopCriterion, kResidual,
+                  [&](const TracedPath& path) { EXPECT_EQ(path.increments.back().event.number, 0); });
 }
 
 // With the apex of the truss at x its load is P(x), the dragged end is at x - 1 + P(x) / 0.3, and s = P + 0.1 while
@@ -69,7 +69,7 @@ TEST(SingularScenes, SnapBackWithFriction) {
   };
   const auto end = [&](double x) { return x - 1.0 + load(x) / 0.3; };
   const double first = 2.0 - turn, second = 2.0 + turn;
-  ForEachAccuracy(ReadLongData("drag_snapback"), EndReason::kStopCriterion, [&](const TracedPath& path) {
+  ForEachAccuracy(ReadLongData("drag_snapback"), EndReason::kStopCriterion, kResidual, [&](const TracedPath& path) {
     std::vector<ContactState> states;
     for (const Increment& increment : path.increments) {
       if (increment.index == 0) continue;
@@ -98,7 +98,7 @@ TEST(SingularScenes, SnapBackWithFriction) {
     const double slid =
         end(first) + (end(first) - end(second)) + (end(PositionX(path, path.increments.back(), "c")) - end(second));
     EXPECT_NEAR(path.increments.back().dissipation, 0.1 * slid, 1e-7);
-  }, kResidual);
+  });
 }
 
 // The tie of two bars becomes straight without stress, where the end that slides would turn if the tie folded to the
@@ -124,7 +124,7 @@ TEST(SingularScenes, SlackTieBecomesTaut) {
 
 // The rest of the structure is at a limit point while n5 sticks, and the load acts on n5: friction turns at rest.
 TEST(SingularScenes, LoadOnTheNodeThatStopsSliding) {
-  ForEachAccuracy(ReadLongData("wrong_path_end"), EndReason::kStopCriterion, [&](const TracedPath& path) {
+  ForEachAccuracy(ReadLongData("wrong_path_end"), EndReason::kStopCriterion, kResidual, [&](const TracedPath& path) {
     int at_rest = 0;
     for (std::size_t i = 1; i < path.increments.size(); ++i) {
       const Increment &before = path.increments[i - 1], &increment = path.increments[i];
@@ -135,7 +135,7 @@ TEST(SingularScenes, LoadOnTheNodeThatStopsSliding) {
     }
     EXPECT_GE(at_rest, 2);
     ExpectNear(EventLoads(path, 5), {0.007807830041, 0.3662055768, 0.118735902, 0.03472924716, 0.0491156351}, 1e-9);
-  }, kResidual);
+  });
 }
 
 // Both once ended where a contact stops sliding next to a smooth limit point.
@@ -158,7 +158,7 @@ TEST(SingularScenes, PartsAtRestWhileOthersMove) {
 
 // b = (0, y): s = (1 - y) + (force of the bar to c along y). The smooth wall takes the rest along x.
 TEST(SingularScenes, GuideWithoutClearance) {
-  ForEachAccuracy(ReadLongData("slot"), EndReason::kStopCriterion, [&](const TracedPath& path) {
+  ForEachAccuracy(ReadLongData("slot"), EndReason::kStopCriterion, kResidual, [&](const TracedPath& path) {
     for (const Increment& increment : path.increments) {
       const double y = PositionY(path, increment, "b"), l = std::hypot(1.0, y);
       const double force = l / std::sqrt(2.0) - 1.0;
@@ -168,7 +168,7 @@ TEST(SingularScenes, GuideWithoutClearance) {
       EXPECT_EQ(Contact(path, increment, "b@rough").rn, 0.0);
       EXPECT_EQ(Contact(path, increment, "b@rough").rt, 0.0);
     }
-  }, kResidual);
+  });
 }
 
 TEST(SingularScenes, GuideWithoutClearanceForAnyStep) {
@@ -191,26 +191,26 @@ TEST(SingularScenes, GuideWithoutClearanceForAnyStep) {
 // The second node is 7e-11 above the floor where the first one stands, and so stands as well. The force that closes its
 // gap takes the reaction out of the cone by as much.
 TEST(SingularScenes, GapBelowTheToleranceUnderALoadOnTheEdgeOfTheCone) {
-  ForEachAccuracy(ReadLongData("load_on_the_edge_of_the_cone"), EndReason::kStopCriterion, [&](const TracedPath& path) {
-    for (const Increment& increment : path.increments) {
-      const double pressed = std::max(increment.load_factor - 0.1, 0.0);
-      for (const char* name : {"n0@floor", "n1@floor"}) {
-        const ContactRecord& contact = Contact(path, increment, name);
-        EXPECT_NEAR(contact.rn, pressed, 1e-10);
-        EXPECT_NEAR(contact.rt, -0.3 * pressed, 1e-10);
-        EXPECT_NEAR(contact.gap, std::max(0.1 - increment.load_factor, 0.0), 1e-10);
-      }
-    }
-    EXPECT_EQ(path.increments.back().contacts[1].state, ContactState::kStick);
-  }, kResidual);
+  ForEachAccuracy(ReadLongData("load_on_the_edge_of_the_cone"), EndReason::kStopCriterion, kResidual,
+                  [&](const TracedPath& path) {
+                    for (const Increment& increment : path.increments) {
+                      const double pressed = std::max(increment.load_factor - 0.1, 0.0);
+                      for (const char* name : {"n0@floor", "n1@floor"}) {
+                        const ContactRecord& contact = Contact(path, increment, name);
+                        EXPECT_NEAR(contact.rn, pressed, 1e-10);
+                        EXPECT_NEAR(contact.rt, -0.3 * pressed, 1e-10);
+                        EXPECT_NEAR(contact.gap, std::max(0.1 - increment.load_factor, 0.0), 1e-10);
+                      }
+                    }
+                    EXPECT_EQ(path.increments.back().contacts[1].state, ContactState::kStick);
+                  });
 }
 
 // A chain of soft bars on a rough floor, dragged at either end, that pushes a von Mises truss, equal bars or not:
 // stick, slip and snap-back in any order.
 TraceRequest RandomDrag(unsigned seed) {
   Decisions decide{SplitMix64(seed)};
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "drag_" + std::to_string(seed);
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0,
                       decide.OneOf(std::vector<double>{0.05, 0.1, 0.2, 0.5, 1.0})}};
@@ -233,8 +233,7 @@ TraceRequest RandomDrag(unsigned seed) {
   scene.bars.push_back({{name(links), "below"}, decide.OneOf(std::vector<double>{1.0, 0.8})});
   scene.loads.push_back(
       {decide.Chance(0.7) ? name(0) : name(links), decide.OneOf(std::vector<double>{1.0, -1.0}), 0.0});
-  request.options.max_increments = 300;
-  return request;
+  return RequestWithin(300, scene);
 }
 
 // They end early only where a bar has shrunk to a point, where a Biot bar has no direction.

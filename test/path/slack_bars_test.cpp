@@ -34,15 +34,13 @@ Bar String(const std::string& from, const std::string& to, double EA, double res
 
 // A node at the origin on springs, between strings to (-1, 0), of the length 1, and to (1, 0), of the length 0.9.
 TraceRequest TwoStrings(double EA, double stiffness) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "two_strings";
   scene.nodes = {{"a", -1.0, 0.0, true, true}, {"b", 1.0, 0.0, true, true}, {"p", 0.0, 0.0, false, false}};
   scene.bars = {String("a", "p", EA, 0.0, "left"), String("p", "b", EA, 0.9, "right")};
   scene.superelements = {{{"p"}, {stiffness, 0.0, 0.0, stiffness}}};
   scene.loads = {{"p", EA + stiffness, 0.0, false}};
-  request.options.stop = {{"p.x", ">", 0.3}};
-  return request;
+  return RequestUntil({"p.x", ">", 0.3}, scene);
 }
 
 // The load is (EA + k) s = k x + EA x - EA (0.1 - x) / 0.9 until the string on the right is slack at x = 0.1, and k x +
@@ -73,13 +71,12 @@ TEST(SlackBars, AreTheSameInOtherWords) {
 
 // A prop below a node bears compression alone: pulled up, the node leaves it, and pressed down it stands on it.
 TEST(SlackBars, APropBearsNoPull) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"foot", 0.0, -1.0, true, true}, {"p", 0.0, 0.0, true, false}};
   scene.bars = {{{"foot", "p"}, 3.0, 0.0, StrainMeasure::kGreenLagrange, BarSense::kCompression, ""}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  request.program = {LoadingStage({{"p", 0.0, 0.5}}), LoadingStage({{"p", 0.0, -1.0}})};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path =
+      TraceProved(RequestOf(scene, {LoadingStage({{"p", 0.0, 0.5}}), LoadingStage({{"p", 0.0, -1.0}})}));
   for (const Increment& increment : path.increments) {
     const double y = increment.positions[3], strain = 0.5 * ((1.0 + y) * (1.0 + y) - 1.0);
     const double load = increment.stage == 1 ? 0.5 * increment.load_factor : 0.5 - increment.load_factor;
@@ -118,16 +115,15 @@ TEST(SlackBars, ARopeStopsASnap) {
 // slides where the rope pulls with mu N = 0.4: 0.1 + 0.4 l0 / EA = 0.21 (the spring of the block is loose until it
 // slides).
 TEST(SlackBars, ARopeDragsABlockByASupportThatMoves) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.nodes = {{"block", 0.0, 0.0, false, false}, {"hand", 1.0, 0.0, true, true}};
   scene.superelements = {{{"block"}, {0.1, 0.0, 0.0, 5.0}}};
   scene.bars = {String("block", "hand", 4.0, 1.1)};
   scene.loads = {{"block", 0.0, -1.0, true}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.4}};
   scene.contacts = {{"block", "floor"}};
-  request.program = {MovingStage({{"hand", 1.0, 0.0}}, 0.6), MovingStage({{"hand", -1.0, 0.0}}, 0.6)};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path =
+      TraceProved(RequestOf(scene, {MovingStage({{"hand", 1.0, 0.0}}, 0.6), MovingStage({{"hand", -1.0, 0.0}}, 0.6)}));
   const std::vector<const Increment*> events = ContactEventsOf(path);
   ASSERT_EQ(events.size(), 3U);
   EXPECT_NEAR(events[0]->load_factor, 0.1, kExact);
@@ -190,13 +186,12 @@ TEST(SlackBars, ASlackStringMayHaveNoLength) {
   for (const StrainMeasure strain :
        {StrainMeasure::kBiot, StrainMeasure::kGreenLagrange, StrainMeasure::kLogarithmic}) {
     SCOPED_TRACE(static_cast<int>(strain));
-    TraceRequest request;
-    Scene& scene = request.scene;
+    Scene scene;
     scene.nodes = {{"a", 0.0, 0.0, true, true}, {"p", 1.0, 0.0, false, false}};
     scene.bars = {String("a", "p", 1.0, 1.5, "", strain)};
     scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-    request.program = {LoadingStage({{"p", -1.0, 0.0}}), LoadingStage({{"p", -2.0, 0.0}})};
-    TracedPath path = TraceIncrements(request);
+    TracedPath path =
+        TraceIncrements(RequestOf(scene, {LoadingStage({{"p", -1.0, 0.0}}), LoadingStage({{"p", -2.0, 0.0}})}));
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     EXPECT_EQ(path.increments.back().bars[0], BarState::kTaut);
     int without_length = 0;
@@ -252,8 +247,7 @@ TEST(SlackBars, TellBranchesApart) {
 
 // A square of four bars, with a string in each diagonal: `longer` than its place, or shorter and so under tension.
 TraceRequest BracedFrame(double longer) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "braced";
   scene.nodes = {{"a", 0.0, 0.0, true, true},
                  {"b", 1.0, 0.0, true, true},
@@ -263,15 +257,13 @@ TraceRequest BracedFrame(double longer) {
   for (const auto& [from, to] : {std::pair("a", "d"), std::pair("b", "c")})
     scene.bars.push_back(String(from, to, 4.0, (1.0 + longer) * std::sqrt(2.0)));
   scene.superelements = {{{"c"}, {0.2, 0.0, 0.0, 0.2}}};
-  request.program = {LoadingStage({{"c", 0.2, 0.0, false}, {"d", 0.1, -0.1, false}}),
-                     LoadingStage({{"c", -0.5, 0.05, false}}), LoadingStage({{"c", 0.3, 0.0, false}})};
-  return request;
+  return RequestOf(scene, {LoadingStage({{"c", 0.2, 0.0, false}, {"d", 0.1, -0.1, false}}),
+                           LoadingStage({{"c", -0.5, 0.05, false}}), LoadingStage({{"c", 0.3, 0.0, false}})});
 }
 
 // A block on a rough floor in a cross of four strings, of which those to one side are taut together; pushed to and fro.
 TraceRequest BlockInACross(double longer) {
-  TraceRequest request;
-  Scene& scene = request.scene;
+  Scene scene;
   scene.name = "cross";
   scene.nodes = {{"p", 0.0, 0.0, false, false}};
   scene.superelements = {{{"p"}, {0.5, 0.0, 0.0, 2.0}}};
@@ -284,9 +276,8 @@ TraceRequest BlockInACross(double longer) {
   scene.loads = {{"p", 0.0, -1.0, true}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
   scene.contacts = {{"p", "floor"}};
-  request.program = {LoadingStage({{"p", 0.9, 0.0, false}}), LoadingStage({{"p", -1.8, 0.0, false}}),
-                     LoadingStage({{"p", 0.9, 1.5, false}})};
-  return request;
+  return RequestOf(scene, {LoadingStage({{"p", 0.9, 0.0, false}}), LoadingStage({{"p", -1.8, 0.0, false}}),
+                           LoadingStage({{"p", 0.9, 1.5, false}})});
 }
 
 TEST(SlackBars, BothMethodsFindThePath) {

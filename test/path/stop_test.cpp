@@ -109,31 +109,32 @@ constexpr double kRounding = 1e-9;  // a criterion holds beyond its value by mor
 // A block of weight 1 on a rough floor with mu = 0.5, on a spring of stiffness 2, under the load s (fx, fy).
 TraceRequest Block(double fx, double fy, const StopCriterion& stop) {
   TraceRequest request;
-  request.scene.nodes = {{"p", 0.0, 0.0, false, false}};
-  request.scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
+  request.scene = NodeOnFloor("p", 2.0, 0.5);
   request.scene.loads = {{"p", 0.0, -1.0, true}, {"p", fx, fy, false}};
-  request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
-  request.scene.contacts = {{"p", "floor"}};
   request.options.stop = {stop};
   return request;
 }
 
 // Lifted, the block leaves the floor at s = 1 and goes up by (s - 1) / 2; pushed, it slips from s = 0.5 on.
 TEST(StopOfATrace, QuantitiesOfContactsEndItWhereTheyPassTheValue) {
-  const TracedPath unloaded = TraceProved(Block(0.0, 1.0, {"p@floor.rn", "<", 0.4}));
-  EXPECT_NEAR(unloaded.increments.back().contacts[0].rn, 0.4, kRounding);
-  EXPECT_GE(unloaded.increments[unloaded.increments.size() - 2].contacts[0].rn, 0.4 - kRounding);
-  EXPECT_NEAR(unloaded.increments.back().load_factor, 0.6, kRounding);
-
-  const TracedPath lifted = TraceProved(Block(0.0, 1.0, {"gap_p@floor", ">", 0.1}));
-  EXPECT_NEAR(lifted.increments.back().contacts[0].gap, 0.1, kRounding);
-  EXPECT_LE(lifted.increments[lifted.increments.size() - 2].contacts[0].gap, 0.1 + kRounding);
-  EXPECT_NEAR(lifted.increments.back().load_factor, 1.0 + 2.0 * lifted.increments.back().contacts[0].gap, 1e-6);
-
-  const TracedPath pushed = TraceProved(Block(1.0, 0.0, {"p@floor.rt", "<", -0.3}));
-  EXPECT_NEAR(pushed.increments.back().contacts[0].rt, -0.3, kRounding);
-  EXPECT_GE(pushed.increments[pushed.increments.size() - 2].contacts[0].rt, -0.3 - kRounding);
-
+  struct Case {
+    double fx, fy;
+    StopCriterion stop;
+    double ContactRecord::*value;
+    double load;
+  };
+  const Case cases[] = {{0.0, 1.0, {"p@floor.rn", "<", 0.4}, &ContactRecord::rn, 0.6},
+                        {0.0, 1.0, {"gap_p@floor", ">", 0.1}, &ContactRecord::gap, 1.2},
+                        {1.0, 0.0, {"p@floor.rt", "<", -0.3}, &ContactRecord::rt, 0.3}};
+  for (const Case& of : cases) {
+    SCOPED_TRACE(ToText(of.stop));
+    const TracedPath path = TraceProved(Block(of.fx, of.fy, of.stop));
+    const Increment &last = path.increments.back(), &before = path.increments[path.increments.size() - 2];
+    EXPECT_NEAR(last.contacts[0].*of.value, of.stop.value, kRounding);
+    const double short_of = of.stop.value - before.contacts[0].*of.value;
+    EXPECT_GE(of.stop.when == ">" ? short_of : -short_of, -kRounding);
+    EXPECT_NEAR(last.load_factor, of.load, kRounding);
+  }
   // Friction is never larger than 0.5: this criterion is not met.
   TraceRequest never = Block(1.0, 0.0, {"p@floor.rt", "<", -0.51});
   never.options.max_increments = 30;

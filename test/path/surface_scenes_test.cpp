@@ -18,8 +18,6 @@
 namespace contact_path::surface_scenes_test {
 namespace {
 
-const double kPi = std::acos(-1.0);
-
 // Forces and moment about the origin of the supports of a block, whose names begin with a letter.
 std::array<double, 3> SupportForces(const TracedPath& path, const Increment& increment, char block) {
   const SceneIndex index(path.request.scene);
@@ -135,24 +133,19 @@ TEST(SurfaceScenes, AFinerBlockPressesInBothPasses) {
 // Both rings as springs, at first.
 TEST(SurfaceScenes, RingOnRing) {
   const TracedPath path = TraceProved(ReadExample("ring_on_ring"));
-  const double stiffness = 1.0 / (2.0 * (kPi / 4.0 - 2.0 / kPi));
-  const Increment *touching = nullptr, *later = nullptr;
-  for (const Increment& increment : path.increments) {
-    if (increment.stage != 1) break;
-    // While they are only pressed, the scene is its own mirror image.
-    for (const ContactRecord& contact : increment.contacts) EXPECT_NEAR(contact.rt, 0.0, 1e-10);
-    if (SumOfNormals(increment) == 0.0) touching = &increment;
-    if (later == nullptr && SumOfNormals(increment) > 0.0) later = &increment;
-  }
-  ASSERT_NE(touching, nullptr);
-  ASSERT_NE(later, nullptr);
-  const double approach = 0.4 * (later->load_factor - touching->load_factor);
-  EXPECT_NEAR(SumOfNormals(*later) / approach, stiffness, 0.03 * stiffness);
+  const double stiffness = 1.0 / (2.0 * (M_PI / 4.0 - 2.0 / M_PI));
+  // While they are only pressed, the scene is its own mirror image.
+  for (const Increment& increment : path.increments)
+    for (const ContactRecord& contact : increment.contacts)
+      EXPECT_TRUE(increment.stage > 1 || std::abs(contact.rt) <= 1e-10) << increment.index;
+  const Increment& later = FirstThat(path, [](const Increment& increment) { return SumOfNormals(increment) > 0.0; });
+  ASSERT_EQ(later.stage, 1);
+  const Increment& touching = path.increments[static_cast<std::size_t>(later.index) - 1];
+  const double approach = 0.4 * (later.load_factor - touching.load_factor);
+  EXPECT_NEAR(SumOfNormals(later) / approach, stiffness, 0.03 * stiffness);
 
   // Rolling over each other, the rings come to slide at a load that the mesh hardly changes.
-  const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kCornerLimit);
-  ASSERT_FALSE(limits.empty());
-  EXPECT_NEAR(limits[0].load_factor, 0.7457, 1e-4);
+  EXPECT_NEAR(LoadsOfKind(path, IncrementKind::kCornerLimit).at(0), 0.7457, 1e-4);
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "contact_path/verify/verify_path.h"
 #include "support/parts.h"
 #include "support/traced_path.h"
+#include "support/transformations.h"
 
 namespace contact_path::total_law_test {
 namespace {
@@ -64,11 +64,7 @@ TEST_F(TotalLaw, RoughTrussIsThatOfTheIncrementalLaw) {
 // A node between springs is lifted off, carried along and pressed down again: where it touches, it has slipped.
 TEST_F(TotalLaw, SlipIsToldByWhereANodeTouchesAgain) {
   TraceRequest request;
-  Scene& scene = request.scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
-  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}, {0.0, 0.0}}};
-  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
-  scene.contacts = {{"p", "floor"}};
+  request.scene = NodeOnFloor("p", 1.0, 0.5);
   request.program = {LoadingStage({{"p", 0.0, 0.2}}), LoadingStage({{"p", 1.0, 0.0}}),
                      LoadingStage({{"p", 0.0, -1.0}}, 3.2)};
   request.options.step = 0.1;
@@ -119,18 +115,10 @@ TEST_F(TotalLaw, TheWayBackRoundADiscIsTheWayThere) {
 }
 
 TEST_F(TotalLaw, AResumedPathIsTheWholeOne) {
-  TraceRequest request = ReadExample("stick_slip_cycle");
-  const TracedPath whole = TraceTotal(request);
-  for (const std::size_t cut :
-       {whole.increments.size() / 4, whole.increments.size() / 2, whole.increments.size() - 2}) {
-    const std::vector<Increment> increments = ResumeAfter(cut, whole).increments;
-    ASSERT_EQ(increments.size(), whole.increments.size());
-    for (std::size_t i = 0; i < increments.size(); ++i) {
-      EXPECT_EQ(increments[i].contacts[0].state, whole.increments[i].contacts[0].state);
-      EXPECT_NEAR(increments[i].positions[2], whole.increments[i].positions[2], kRounding);
-      EXPECT_NEAR(increments[i].dissipation, whole.increments[i].dissipation, kRounding);
-    }
-  }
+  const TracedPath whole = TraceTotal(ReadExample("stick_slip_cycle"));
+  const std::size_t count = whole.increments.size();
+  for (const std::size_t cut : {count / 4, count / 2, count - 2})
+    ExpectSamePath(ResumeAfter(cut, whole), whole, kRounding);
 }
 
 TEST(VerifyTotalLaw, TellsThePathOfTheOtherLaw) {

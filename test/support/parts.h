@@ -55,6 +55,65 @@ inline Stage MovingStage(const std::vector<SupportMotion>& supports, double targ
 // part: of what is left; 0: all.
 inline Stage UnloadingStage(double part = 0.0) { return {"", {}, {}, {}, part, true}; }
 
+inline TraceRequest RequestOf(const Scene& scene, const std::vector<Stage>& program) { return {scene, {}, program}; }
+
+inline TraceRequest RequestUntil(const StopCriterion& stop, const Scene& scene) {
+  TraceRequest request;
+  request.scene = scene;
+  request.options.stop = {stop};
+  return request;
+}
+
+inline TraceRequest RequestWithin(int max_increments, const Scene& scene) {
+  TraceRequest request;
+  request.scene = scene;
+  request.options.max_increments = max_increments;
+  return request;
+}
+
+inline TraceRequest RequestUpToALimit(const Scene& scene, const std::vector<Stage>& program = {}) {
+  TraceRequest request = RequestOf(scene, program);
+  request.options.at_limit = AtLimit::kStop;
+  return request;
+}
+
+// A node on springs of this stiffness along both axes, which touches the obstacle "floor" below it. Without loads.
+inline Scene NodeOnFloor(const std::string& node, double stiffness, double friction) {
+  Scene scene;
+  scene.nodes = {{node, 0.0, 0.0}};
+  scene.superelements = {{{node}, {stiffness, 0.0, 0.0, stiffness}}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+  scene.contacts = {{node, "floor"}};
+  return scene;
+}
+
+// The body "box" stands on the obstacle "floor" with the nodes "l" and "r", so far apart, and has this weight, which
+// acts so high above their middle.
+inline Scene BoxOnFloor(double width, double height, double friction, double weight) {
+  Scene scene;
+  scene.bodies = {{"box", 0.0, height}};
+  scene.nodes = {NodeOf("box", "l", -0.5 * width, 0.0), NodeOf("box", "r", 0.5 * width, 0.0)};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+  scene.contacts = {{"l", "floor"}, {"r", "floor"}};
+  scene.loads = {LoadOnBody("box", 0.0, 0.0, true)};
+  scene.loads[0].by = -weight;
+  return scene;
+}
+
+// A disc of this radius and weight in a right angle between two rough planes, turned by a moment of its weight times
+// its radius: it turns in place from mu sqrt(2) / (1 + mu^2) on.
+inline Scene DiscInARightAngle(double radius, double friction, double weight) {
+  Scene scene;
+  const double y = std::sqrt(2.0) * radius;
+  scene.bodies = {{"disc", 0.0, y}};
+  scene.obstacles = {Circle("rim", 0.0, y, radius, 0.0, "disc"),
+                     {"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 1.0, friction},
+                     {"right", ObstacleShape::kHalfPlane, 0.0, 0.0, -1.0, 1.0, friction}};
+  scene.contacts = {Rolls("rim", "left"), Rolls("rim", "right")};
+  scene.loads = {LoadOnBody("disc", 0.0, -weight, true), LoadOnBody("disc", 0.0, 0.0, false, weight * radius)};
+  return scene;
+}
+
 // From a fixed node through a fixed eye, round which it turns by `turn`, to a node that a force of 1 draws along the
 // tendon.
 inline TraceRequest DrawnCord(double turn, double friction, double EA) {

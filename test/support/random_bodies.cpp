@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "support/beams.h"
+#include "support/solid_grid.h"
+
 namespace contact_path {
 namespace {
 
@@ -57,22 +60,18 @@ class Builder {
         scene().nodes.push_back(
             {NameOf(body, i, j), x + dx * (i + aside), dy * (j + random_.Number(-uneven, uneven)), false, false});
       }
-    Material material;
-    material.name = std::string(1, body) + "_stuff";
-    material.model = random_.OneOf(
+    const MaterialModel model = random_.OneOf(
         std::array<MaterialModel, 3>{MaterialModel::kNeoHookean, MaterialModel::kNeoHookean, MaterialModel::kLinear});
-    material.E = stiffness;
-    material.nu = random_.Number(0.0, 0.4);
-    Solid solid;
+    const Material material =
+        ElasticMaterial(std::string(1, body) + "_stuff", stiffness, random_.Number(0.0, 0.4), model);
+    Solid solid = SolidOf(material.name);
     solid.name = std::string(1, body);
-    solid.material = material.name;
     solid.plane = random_.Chance(0.5) ? PlaneState::kStrain : PlaneState::kStress;
-    solid.nodes_per_element = 4;
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i)
         for (const auto& [di, dj] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
           solid.nodes.push_back(NameOf(body, i + di, j + dj));
-    scene().materials.push_back(std::move(material));
+    scene().materials.push_back(material);
     scene().solids.push_back(std::move(solid));
   }
 
@@ -81,14 +80,8 @@ class Builder {
     first_of_upper_ = scene().nodes.size();
     scene().nodes.push_back({NameOf(body, 0, 0), x, 0.0, true, true, true});
     scene().nodes.push_back({NameOf(body, 1, 0), x + width, 0.0, true, true, true});
-    Beam beam;
-    beam.name = std::string(1, body);
-    beam.nodes = {NameOf(body, 0, 0), NameOf(body, 1, 0)};
-    beam.EA = EA;
-    beam.EI = EA * std::pow(10.0, random_.Number(-3.5, -2.0));
-    beam.segments = segments;
-    beam.angle = angle;
-    scene().beams.push_back(std::move(beam));
+    scene().beams.push_back(Between(std::string(1, body), NameOf(body, 0, 0), NameOf(body, 1, 0), EA,
+                                    EA * std::pow(10.0, random_.Number(-3.5, -2.0)), segments, angle));
   }
 
   Node& NodeOf(const std::string& name) {
@@ -170,23 +163,12 @@ class Builder {
     const double friction = random_.Chance(0.2) ? 0.0 : random_.Number(0.1, 1.0);
     const auto touch = [&](const Body& body, const std::string& group, const std::string& surface) {
       scene().groups.push_back({group, body.edge});
-      ContactCandidate contact;
-      contact.group = group;
-      contact.surface = surface;
-      contact.friction = friction;
-      scene().contacts.push_back(std::move(contact));
+      scene().contacts.push_back({"", "", group, surface, friction});
     };
-    BoundarySurface table;
-    table.name = "table";
-    table.nodes = lower.edge;
-    table.radius = lower.radius;
-    scene().surfaces.push_back(std::move(table));
+    scene().surfaces.push_back({"table", lower.edge, false, lower.radius});
     touch(upper, "sole", "table");
     if (!random_.Chance(0.15)) return;
-    BoundarySurface bottom;
-    bottom.name = "bottom";
-    bottom.nodes.assign(upper.around.rbegin(), upper.around.rend());
-    scene().surfaces.push_back(std::move(bottom));
+    scene().surfaces.push_back({"bottom", {upper.around.rbegin(), upper.around.rend()}});
     touch(lower, "of_table", "bottom");
   }
 

@@ -54,15 +54,11 @@ class Builder {
   void AddContact(std::size_t node, double angle, double gap, double friction) {
     const Node& at = scene_.nodes[node];
     const double length = random_.Chance(0.5) ? 1.0 : random_.Number(0.2, 5.0);
-    Obstacle obstacle;
-    obstacle.name = "o" + std::to_string(scene_.obstacles.size());
-    obstacle.px = at.x - gap * std::cos(angle);
-    obstacle.py = at.y - gap * std::sin(angle);
-    obstacle.nx = length * std::cos(angle);
-    obstacle.ny = length * std::sin(angle);
-    obstacle.friction = friction;
-    scene_.contacts.push_back({at.name, obstacle.name});
-    scene_.obstacles.push_back(std::move(obstacle));
+    const double c = std::cos(angle), s = std::sin(angle);
+    const std::string name = "o" + std::to_string(scene_.obstacles.size());
+    scene_.contacts.push_back({at.name, name});
+    scene_.obstacles.push_back(
+        {name, ObstacleShape::kHalfPlane, at.x - gap * c, at.y - gap * s, length * c, length * s, friction});
   }
 
   double Friction() { return random_.Chance(0.15) ? 0.0 : random_.Number(0.1, 1.2); }

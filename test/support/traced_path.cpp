@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -94,18 +92,6 @@ TraceRequest ReadLongData(const std::string& name) {
   return request;
 }
 
-TracedPath TraceText(std::string text, const std::map<std::string, double>& values) {
-  for (const auto& [name, value] : values) {
-    std::ostringstream number;
-    number.precision(17);
-    number << std::fixed << value;
-    const std::string place = "<" + name + ">";
-    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place))
-      text.replace(at, place.size(), number.str());
-  }
-  return TraceIncrements(ReadTraceRequest(text, "test"));
-}
-
 TracedPath TraceIncrements(const TraceRequest& request) {
   TracedPath path;
   path.request = request;
@@ -153,8 +139,8 @@ TracedPath TraceUntil(const StopCriterion& stop, const Scene& scene) {
   return TraceProved(request);
 }
 
-void ForEachAccuracy(TraceRequest request, EndReason end, const std::function<void(const TracedPath&)>& expect,
-                     double largest_residual) {
+void ForEachAccuracy(TraceRequest request, EndReason end, double largest_residual,
+                     const std::function<void(const TracedPath&)>& expect) {
   for (const Accuracy accuracy : kPresets) {
     SCOPED_TRACE(ToString(accuracy));
     request.options.accuracy = accuracy;

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -35,9 +34,6 @@ TraceRequest ReadData(const std::string& name);
 // The same with four times the increments of the default.
 TraceRequest ReadLongData(const std::string& name);
 
-// All increments of the request of this text, in which <name> stands for values[name].
-TracedPath TraceText(std::string text, const std::map<std::string, double>& values = {});
-
 // All increments of a request.
 TracedPath TraceIncrements(const TraceRequest& request);
 
@@ -62,8 +58,8 @@ TracedPath TraceUntil(const StopCriterion& stop, const Scene& scene);
 
 // Each accuracy of a request: the path ends for this reason and is proved, with residuals up to this bound, and is as
 // expected.
-void ForEachAccuracy(TraceRequest request, EndReason end, const std::function<void(const TracedPath&)>& expect,
-                     double largest_residual = std::numeric_limits<double>::infinity());
+void ForEachAccuracy(TraceRequest request, EndReason end, double largest_residual,
+                     const std::function<void(const TracedPath&)>& expect);
 
 // The increments behind the first `count` ones of a path are traced anew, going on from those.
 TracedPath ResumeAfter(std::size_t count, const TracedPath& path);

@@ -226,22 +226,11 @@ TracedPath UndoMirror(TracedPath path) {
 
 TraceRequest Reverse(TraceRequest request) {
   Scene& scene = request.scene;
-  std::reverse(scene.nodes.begin(), scene.nodes.end());
-  std::reverse(scene.bodies.begin(), scene.bodies.end());
-  std::reverse(scene.bars.begin(), scene.bars.end());
-  std::reverse(scene.tendons.begin(), scene.tendons.end());
-  std::reverse(scene.pins.begin(), scene.pins.end());
-  std::reverse(scene.superelements.begin(), scene.superelements.end());
-  std::reverse(scene.beams.begin(), scene.beams.end());
-  std::reverse(scene.materials.begin(), scene.materials.end());
-  std::reverse(scene.solids.begin(), scene.solids.end());
-  ForEachLoading(&request, [](auto* loads, auto* supports, auto* obstacles) {
-    std::reverse(loads->begin(), loads->end());
-    std::reverse(supports->begin(), supports->end());
-    std::reverse(obstacles->begin(), obstacles->end());
-  });
-  std::reverse(scene.obstacles.begin(), scene.obstacles.end());
-  std::reverse(scene.contacts.begin(), scene.contacts.end());
+  const auto turn_round = [](auto&... lists) { (std::reverse(lists.begin(), lists.end()), ...); };
+  turn_round(scene.nodes, scene.bodies, scene.bars, scene.tendons, scene.pins, scene.superelements, scene.beams,
+             scene.materials, scene.solids, scene.obstacles, scene.contacts);
+  ForEachLoading(&request,
+                 [&](auto* loads, auto* supports, auto* obstacles) { turn_round(*loads, *supports, *obstacles); });
   for (Group& group : scene.groups) {
     std::reverse(group.nodes.begin(), group.nodes.end());
     for (std::string& node : group.nodes) node = FromOtherEnd(node, scene.beams);
@@ -250,9 +239,7 @@ TraceRequest Reverse(TraceRequest request) {
     for (std::string& node : surface.nodes) node = FromOtherEnd(node, scene.beams);
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
   for (Tendon& tendon : scene.tendons) {
-    std::reverse(tendon.nodes.begin(), tendon.nodes.end());
-    std::reverse(tendon.radii.begin(), tendon.radii.end());
-    std::reverse(tendon.turns.begin(), tendon.turns.end());
+    turn_round(tendon.nodes, tendon.radii, tendon.turns);
     for (double& turns : tendon.turns) turns = -turns;
   }
   for (Pin& pin : scene.pins) {
@@ -260,8 +247,7 @@ TraceRequest Reverse(TraceRequest request) {
     pin.angle = -pin.angle;
   }
   for (Beam& beam : scene.beams) {
-    std::reverse(beam.nodes.begin(), beam.nodes.end());
-    std::reverse(beam.hinged.begin(), beam.hinged.end());
+    turn_round(beam.nodes, beam.hinged);
     beam.angle = -beam.angle;
   }
   for (Solid& solid : scene.solids) {
@@ -270,8 +256,7 @@ TraceRequest Reverse(TraceRequest request) {
   }
   for (Superelement& part : scene.superelements) {
     const std::size_t nodes = part.nodes.size();
-    std::reverse(part.nodes.begin(), part.nodes.end());
-    std::reverse(part.rest_positions.begin(), part.rest_positions.end());
+    turn_round(part.nodes, part.rest_positions);
     ForEachPoint(&part.rest_positions, [](double* y, double* x) { std::swap(*x, *y); });
     const std::vector<double> stiffness = part.stiffness;
     const auto moved = [&](std::size_t i) { return 2 * (nodes - 1 - i / 2) + i % 2; };
