@@ -7,6 +7,7 @@
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/validate.h"
+#include "support/beams.h"
 #include "support/broken_rule.h"
 #include "support/solid_grid.h"
 
@@ -26,125 +27,92 @@ TraceRequest SoundRequest() {
   for (Node& node : scene.nodes) node.fixed_x = node.fixed_y = node.y == 0.0;
   scene.nodes.insert(scene.nodes.end(), {{"p", 0.7, 1.125}, {"l", 0.0, 2.0, true, true}, {"r", 2.0, 2.0, true, true}});
   scene.bars = {{{"l", "p"}, 1.0}, {{"r", "p"}, 1.0}};
-  Beam beam;
-  beam.name = "axis";
-  beam.nodes = {"l", "r"};
-  beam.EA = beam.EI = 1.0;
-  beam.segments = 4;
-  scene.beams = {beam};
+  scene.beams = {Between("axis", "l", "r", 1.0, 1.0, 4)};
   scene.loads = {{"p", 0.0, -1.0}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, -1.0, 0.0, 1.0, 0.2}};
   scene.surfaces = {{"top", {"0_2", "2_2", "4_2"}}};
-  scene.contacts.resize(1);
-  scene.contacts[0].node = "p";
-  scene.contacts[0].surface = "top";
-  scene.contacts[0].friction = 0.3;
+  scene.contacts = {{"p", "", "", "top", 0.3}};
   return request;
 }
 
 BoundarySurface& FirstSurface(TraceRequest& request) { return request.scene.surfaces[0]; }
 ContactCandidate& FirstContact(TraceRequest& request) { return request.scene.contacts[0]; }
 
-class SurfaceInContact : public testing::TestWithParam<BrokenRule> {};
+std::function<void(TraceRequest&)> WithNodes(const std::vector<std::string>& nodes) {
+  return [=](TraceRequest& request) { FirstSurface(request).nodes = nodes; };
+}
 
-TEST_P(SurfaceInContact, ReportsTheBrokenRuleAlone) { ExpectBrokenAlone(GetParam(), SoundRequest()); }
+const BrokenRule kRules[] = {
+    {"scene.contacts[0].surface", "tap", "must name a surface of the scene; did you mean top?"},
+    {"scene.contacts[0].obstacle", "floor", "must be left out where there is a surface"},
+    {[](auto& r) { FirstContact(r).surface.clear(); }, "scene.contacts[0].obstacle", "\"\"",
+     "must name an obstacle of the scene where there is no surface"},
+    {"scene.contacts[0].friction", "-0.1", "must be >= 0"},
+    {[](auto& r) { r.scene.contacts.push_back(FirstContact(r)); }, "scene.contacts[1]", "p@top",
+     "must not be repeated"},
+    {[](auto& r) {
+       r.scene.obstacles[0].name = "top";
+       r.scene.contacts.push_back({"p", "top"});
+     },
+     "scene.contacts[1]", "p@top", "must not be repeated"},
+    {"scene.contacts[0].node", "2_2",
+     "a node of surface top itself must have some of it farther along it than two nodes and pi times its "
+     "radius"},
+    {[](auto& r) {
+       FirstSurface(r).nodes = {"l", "axis/1", "axis/2", "axis/3", "r"};
+       FirstSurface(r).radius = 0.6;  // the last patch begins at 1.75
+       FirstContact(r).node = "l";
+     },
+     "scene.contacts[0].node", "l", "a node of surface top itself must have some of it farther along it"},
+    {[](auto& r) {
+       FirstSurface(r).nodes = {"p", "r", "axis/3", "axis/2", "axis/1", "l"};
+       FirstSurface(r).closed = true;
+       r.scene.nodes[6].x = 1.0;
+       r.scene.nodes[6].y = 2.0625;  // behind the beam
+     },
+     "scene.contacts[0]", "p@top", "initial position penetrates the surface by 0.0625"},
+    {[](auto& r) {
+       FirstSurface(r).nodes = {"4_0", "2_0"};
+       FirstContact(r).node = "l";
+     },
+     "scene.contacts[0].node", "l", "must be free to move, or a node of surface top must be"},
+    {WithNodes({"2_2", "0_2"}), "scene.surfaces[0].nodes[0]", "2_2",
+     "the edge to 0_2 must have the material on its right: list the nodes in the other order"},
+    {WithNodes({"2_0", "2_2"}), "scene.surfaces[0].nodes[0]", "2_0",
+     "the edge to 2_2 must be on a boundary: there is material on both of its sides"},
+    {WithNodes({"0_2", "4_2"}), "scene.surfaces[0].nodes[0]", "0_2",
+     "the edge to 4_2 must be on a boundary: no solid, beam or bar has it"},
+    {[](auto& r) { FirstSurface(r).closed = true; }, "scene.surfaces[0].nodes[2]", "4_2",
+     "the edge to 0_2 must be on a boundary: no solid, beam or bar has it"},
+    {[](auto& r) {
+       r.scene.nodes.push_back({"back", 1.0, 2.0});
+       r.scene.bars.push_back({{"r", "back"}, 1.0});
+       FirstSurface(r).nodes = {"axis/3", "r", "back"};
+     },
+     "scene.surfaces[0].nodes[1]", "r", "the surface must not lead straight back here"},
+    {[](auto& r) {
+       r.scene.nodes.push_back({"up", 2.0, 3.0});
+       r.scene.bars.push_back({{"r", "up"}, 1.0});
+       r.scene.bars.push_back({{"l", "up"}, 1.0});
+       FirstSurface(r).nodes = {"axis/3", "r", "up"};
+       FirstSurface(r).radius = 0.5;
+     },
+     "scene.surfaces[0].radius", "0.5",
+     "must be less than the radius of the curve where it bends to its admissible side, 0.17"},
+    {[](auto& r) { r.scene.nodes[6].y = 0.75; }, "scene.contacts[0]", "p@top",
+     "initial position penetrates the surface by 0.25"},
+    {[](auto& r) { FirstSurface(r).radius = 0.375; }, "scene.contacts[0]", "p@top",
+     "initial position penetrates the surface by 0.25"},
+    {[](auto& r) {
+       FirstSurface(r).nodes = {"l", "axis/1", "axis/2"};
+       r.scene.support_motions = {{"l", 0.0, -1.0}};
+     },
+     "scene.support_motions[0].node", "l", "must not belong to surface top, which contacts touch"},
+};
 
-INSTANTIATE_TEST_SUITE_P(
-    Rules, SurfaceInContact,
-    testing::Values(
-        BrokenRule{"UnknownSurface", [](auto& r) { FirstContact(r).surface = "tap"; }, "scene.contacts[0].surface",
-                   "tap", "must name a surface of the scene; did you mean top?"},
-        BrokenRule{"BothPartners", [](auto& r) { FirstContact(r).obstacle = "floor"; }, "scene.contacts[0].obstacle",
-                   "floor", "must be left out where there is a surface"},
-        BrokenRule{"NoPartner",
-                   [](auto& r) {
-                     FirstContact(r) = {"p", ""};
-                   },
-                   "scene.contacts[0].obstacle", "\"\"",
-                   "must name an obstacle of the scene where there is no surface"},
-        BrokenRule{"FrictionNegative", [](auto& r) { FirstContact(r).friction = -0.1; }, "scene.contacts[0].friction",
-                   "-0.1", "must be >= 0"},
-        BrokenRule{"Repeated", [](auto& r) { r.scene.contacts.push_back(FirstContact(r)); }, "scene.contacts[1]",
-                   "p@top", "must not be repeated"},
-        BrokenRule{"NameOfAnObstacle",
-                   [](auto& r) {
-                     r.scene.obstacles[0].name = "top";
-                     r.scene.contacts.push_back({"p", "top"});
-                   },
-                   "scene.contacts[1]", "p@top", "must not be repeated"},
-        BrokenRule{"NodeOfAShortSurface", [](auto& r) { FirstContact(r).node = "2_2"; }, "scene.contacts[0].node",
-                   "2_2",
-                   "a node of surface top itself must have some of it farther along it than two nodes and pi times its "
-                   "radius"},
-        BrokenRule{"NodeNextToAllOfTheSurface",
-                   [](auto& r) {
-                     FirstSurface(r).nodes = {"l", "axis/1", "axis/2", "axis/3", "r"};
-                     FirstSurface(r).radius = 0.6;  // the last patch begins at 1.75
-                     FirstContact(r).node = "l";
-                   },
-                   "scene.contacts[0].node", "l", "a node of surface top itself must have some of it farther along it"},
-        BrokenRule{"PenetratesItself",
-                   [](auto& r) {
-                     FirstSurface(r).nodes = {"p", "r", "axis/3", "axis/2", "axis/1", "l"};
-                     FirstSurface(r).closed = true;
-                     r.scene.nodes[6].x = 1.0;
-                     r.scene.nodes[6].y = 2.0625;  // behind the beam
-                   },
-                   "scene.contacts[0]", "p@top", "initial position penetrates the surface by 0.0625"},
-        BrokenRule{"NothingMoves",
-                   [](auto& r) {
-                     FirstSurface(r).nodes = {"4_0", "2_0"};
-                     FirstContact(r).node = "l";
-                   },
-                   "scene.contacts[0].node", "l", "must be free to move, or a node of surface top must be"},
-        BrokenRule{"MaterialOnTheLeft",
-                   [](auto& r) {
-                     FirstSurface(r).nodes = {"2_2", "0_2"};
-                   },
-                   "scene.surfaces[0].nodes[0]", "2_2",
-                   "the edge to 0_2 must have the material on its right: list the nodes in the other order"},
-        BrokenRule{"WithinSolids",
-                   [](auto& r) {
-                     FirstSurface(r).nodes = {"2_0", "2_2"};
-                   },
-                   "scene.surfaces[0].nodes[0]", "2_0",
-                   "the edge to 2_2 must be on a boundary: there is material on both of its sides"},
-        BrokenRule{"NoEdge",
-                   [](auto& r) {
-                     FirstSurface(r).nodes = {"0_2", "4_2"};
-                   },
-                   "scene.surfaces[0].nodes[0]", "0_2",
-                   "the edge to 4_2 must be on a boundary: no solid, beam or bar has it"},
-        BrokenRule{"ClosedWithoutAnEdge", [](auto& r) { FirstSurface(r).closed = true; }, "scene.surfaces[0].nodes[2]",
-                   "4_2", "the edge to 0_2 must be on a boundary: no solid, beam or bar has it"},
-        BrokenRule{"StraightBack",
-                   [](auto& r) {
-                     r.scene.nodes.push_back({"back", 1.0, 2.0});
-                     r.scene.bars.push_back({{"r", "back"}, 1.0});
-                     FirstSurface(r).nodes = {"axis/3", "r", "back"};
-                   },
-                   "scene.surfaces[0].nodes[1]", "r", "the surface must not lead straight back here"},
-        BrokenRule{"RadiusTooLarge",
-                   [](auto& r) {
-                     r.scene.nodes.push_back({"up", 2.0, 3.0});
-                     r.scene.bars.push_back({{"r", "up"}, 1.0});
-                     r.scene.bars.push_back({{"l", "up"}, 1.0});
-                     FirstSurface(r).nodes = {"axis/3", "r", "up"};
-                     FirstSurface(r).radius = 0.5;
-                   },
-                   "scene.surfaces[0].radius", "0.5",
-                   "must be less than the radius of the curve where it bends to its admissible side, 0.17"},
-        BrokenRule{"Penetrates", [](auto& r) { r.scene.nodes[6].y = 0.75; }, "scene.contacts[0]", "p@top",
-                   "initial position penetrates the surface by 0.25"},
-        BrokenRule{"PenetratesItsThickness", [](auto& r) { FirstSurface(r).radius = 0.375; }, "scene.contacts[0]",
-                   "p@top", "initial position penetrates the surface by 0.25"},
-        BrokenRule{"MovesASurface",
-                   [](auto& r) {
-                     FirstSurface(r).nodes = {"l", "axis/1", "axis/2"};
-                     r.scene.support_motions = {{"l", 0.0, -1.0}};
-                   },
-                   "scene.support_motions[0].node", "l", "must not belong to surface top, which contacts touch"}),
-    NameOf<BrokenRule>);
+TEST(SurfaceInContact, BrokenRulesAreReportedAlone) {
+  for (const BrokenRule& rule : kRules) ExpectBrokenAlone(rule, SoundRequest());
+}
 
 // A node that is behind by more than an edge of the surface is past its end.
 TEST(SurfacesInContact, BothSidesOfABeamOrABarAreBoundaries) {

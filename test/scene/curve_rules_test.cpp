@@ -16,10 +16,6 @@ TraceRequest SoundRequest() {
   return request;
 }
 
-class CurveRulesTest : public testing::TestWithParam<BrokenRule> {};
-
-TEST_P(CurveRulesTest, ReportsTheBrokenRuleAlone) { ExpectBrokenAlone(GetParam(), SoundRequest()); }
-
 // Adds it to the scene with a contact of b, which is at (-5, 0).
 void AddCurve(TraceRequest* request, const Obstacle& obstacle) {
   request->scene.obstacles.push_back(obstacle);
@@ -37,124 +33,89 @@ Obstacle Disc(double x, double y, double radius, bool inside) {
 
 constexpr ObstacleShape kPolyline = ObstacleShape::kPolyline, kSpline = ObstacleShape::kSpline;
 
-// A disc about (0, 8) of this radius that may roll on the curve.
-void AddRolling(TraceRequest* request, double radius, const Obstacle& curve) {
-  request->scene.bodies = {{"disc", 0.0, 8.0}};
-  Obstacle rim = Disc(0.0, 8.0, radius, false);
-  rim.name = "rim";
-  rim.body = "disc";
-  request->scene.obstacles = {rim, curve};
-  request->scene.obstacles.back().name = "floor";
-  ContactCandidate contact;
-  contact.obstacles = {"rim", "floor"};
-  request->scene.contacts = {contact};
-}
-
 Obstacle Groove(ObstacleShape shape) {
   Obstacle groove = CurveThrough(shape, {-9.0, 9.0, 0.0, 0.0, 9.0, 9.0});
   if (shape == ObstacleShape::kPolyline) groove.fillet = 1.0;
   return groove;
 }
 
-const BrokenRule kCurveRules[] = {
-    {"CircleThatDoesNotFitAFillet", [](auto& r) { AddRolling(&r, 1.0, Groove(kPolyline)); },
-     "scene.contacts[0].obstacles[0]", "rim",
+Obstacle Corner(double fillet) {
+  Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+  corner.fillet = fillet;
+  return corner;
+}
+
+using Change = std::function<void(TraceRequest&)>;
+
+Change WithCurve(const Obstacle& obstacle) {
+  return [=](TraceRequest& request) { AddCurve(&request, obstacle); };
+}
+
+// A disc about (0, 8) of this radius that may roll on the curve.
+Change WithDisc(double radius, const Obstacle& curve) {
+  return [=](TraceRequest& request) {
+    Obstacle rim = Disc(0.0, 8.0, radius, false), floor = curve;
+    rim.name = "rim";
+    rim.body = "disc";
+    floor.name = "floor";
+    request.scene.bodies = {{"disc", 0.0, 8.0}};
+    request.scene.obstacles = {rim, floor};
+    request.scene.contacts = {{"", "", "", "", 0.0, {"rim", "floor"}}};
+  };
+}
+
+const BrokenRule kRules[] = {
+    {WithDisc(1.0, Groove(kPolyline)), "scene.contacts[0].obstacles[0]", "rim",
      "its radius 1 must be less than the fillet 1 of the hollow of floor at point 2: where it does not fit it touches "
      "twice"},
-    {"CircleThatDoesNotFitASpline", [](auto& r) { AddRolling(&r, 3.5, Groove(kSpline)); },
-     "scene.contacts[0].obstacles[0]", "rim", "its radius 3.5 must be less than the radius of curvature 3"},
-    {"CircleInACurve",
-     [](auto& r) {
-       AddRolling(&r, 1.0, CurveThrough(kPolyline, {-9.0, 7.25, 9.0, 7.25}));
-     },
-     "scene.contacts[0]", "rim@floor", "the circle penetrates the obstacle at the start by 0.25"},
-    {"CircleWithoutRadius", [](auto& r) { AddCurve(&r, Disc(0.0, 9.0, 0.0, false)); }, "scene.obstacles[0].radius", "0",
-     "must be > 0 where the shape is circle"},
-    {"OddNumberOfNumbers",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0}));
-     },
-     "scene.obstacles[0].points", "3 numbers", "must have x and y in turn"},
-    {"OnePoint",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0}));
-     },
-     "scene.obstacles[0].points", "1 point", "must be at least two"},
-    {"TwoPointsClosed",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 1.0, 1.0}, true));
-     },
-     "scene.obstacles[0].points", "2 points", "must be at least three where the curve is closed"},
-    {"EqualPointsOfASpline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 0.0, -1.0, 0.0, -1.0, 5.0, 2.0}));
-     },
-     "scene.obstacles[0].points", "[0, -1]", "neighbours must differ: point 2 is point 3"},
-    {"LastPointOfAClosedPolylineIsTheFirst",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 1.0, 9.0, 5.0, 3.0, 1.0}, true));
-     },
-     "scene.obstacles[0].points", "[3, 1]", "neighbours must differ: point 4 is point 1"},
-    {"SelfCrossingPolyline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 5.0, 9.0, 1.0, 3.0, 5.0}, true));
-     },
-     "scene.obstacles[0].points", "[9, 1]",
-     "a closed polyline must not cross itself: the edge from point 1 meets the edge from point 3"},
-    {"EdgeStraightBack",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0, -1.0, 3.0, -1.0}));
-     },
-     "scene.obstacles[0].points", "a corner", "an edge must not lead straight back"},
-    {"FilletTooLarge",
-     [](auto& r) {
-       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
-       corner.fillet = 2.5;
-       AddCurve(&r, corner);
-     },
-     "scene.obstacles[0].fillet", "2.5", "must be at most 2: the edges have no room for larger fillets"},
-    {"FilletNegative",
-     [](auto& r) {
-       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
-       corner.fillet = -0.1;
-       AddCurve(&r, corner);
-     },
-     "scene.obstacles[0].fillet", "-0.1", "must be"},
-    {"PointNotFinite",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, kNaN, 9.0, 1.0}));
-     },
-     "scene.obstacles[0].points[1]", ".nan", "must be finite"},
-    {"WithinADisc", [](auto& r) { AddCurve(&r, Disc(-5.0, -1.0, 1.25, false)); }, "scene.contacts[0]", "b@curve",
+    {WithDisc(3.5, Groove(kSpline)), "scene.contacts[0].obstacles[0]", "rim",
+     "its radius 3.5 must be less than the radius of curvature 3"},
+    {WithDisc(1.0, CurveThrough(kPolyline, {-9.0, 7.25, 9.0, 7.25})), "scene.contacts[0]", "rim@floor",
+     "the circle penetrates the obstacle at the start by 0.25"},
+    {WithCurve(Disc(0.0, 9.0, 0.0, false)), "scene.obstacles[0].radius", "0", "must be > 0 where the shape is circle"},
+    {WithCurve(CurveThrough(kPolyline, {-9.0, -1.0, 9.0})), "scene.obstacles[0].points", "3 numbers",
+     "must have x and y in turn"},
+    {WithCurve(CurveThrough(kSpline, {-9.0, -1.0})), "scene.obstacles[0].points", "1 point", "must be at least two"},
+    {WithCurve(CurveThrough(kSpline, {-9.0, -1.0, 1.0, 1.0}, true)), "scene.obstacles[0].points", "2 points",
+     "must be at least three where the curve is closed"},
+    {WithCurve(CurveThrough(kSpline, {-9.0, -1.0, 0.0, -1.0, 0.0, -1.0, 5.0, 2.0})), "scene.obstacles[0].points",
+     "[0, -1]", "neighbours must differ: point 2 is point 3"},
+    {WithCurve(CurveThrough(kPolyline, {3.0, 1.0, 9.0, 1.0, 9.0, 5.0, 3.0, 1.0}, true)), "scene.obstacles[0].points",
+     "[3, 1]", "neighbours must differ: point 4 is point 1"},
+    {WithCurve(CurveThrough(kPolyline, {3.0, 1.0, 9.0, 5.0, 9.0, 1.0, 3.0, 5.0}, true)), "scene.obstacles[0].points",
+     "[9, 1]", "a closed polyline must not cross itself: the edge from point 1 meets the edge from point 3"},
+    {WithCurve(CurveThrough(kPolyline, {-9.0, -1.0, 9.0, -1.0, 3.0, -1.0})), "scene.obstacles[0].points", "a corner",
+     "an edge must not lead straight back"},
+    {WithCurve(Corner(2.5)), "scene.obstacles[0].fillet", "2.5",
+     "must be at most 2: the edges have no room for larger fillets"},
+    {WithCurve(Corner(-0.1)), "scene.obstacles[0].fillet", "-0.1", "must be"},
+    {WithCurve(CurveThrough(kSpline, {-9.0, kNaN, 9.0, 1.0})), "scene.obstacles[0].points[1]", ".nan",
+     "must be finite"},
+    {WithCurve(Disc(-5.0, -1.0, 1.25, false)), "scene.contacts[0]", "b@curve",
      "initial position penetrates the obstacle by 0.25"},
-    {"OutsideOfARing", [](auto& r) { AddCurve(&r, Disc(-5.0, 2.0, 1.5, true)); }, "scene.contacts[0]", "b@curve",
+    {WithCurve(Disc(-5.0, 2.0, 1.5, true)), "scene.contacts[0]", "b@curve",
      "initial position penetrates the obstacle by 0.5"},
-    {"BelowASpline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, 0.5, 9.0, 0.5}));
-     },
-     "scene.contacts[0]", "b@curve", "initial position penetrates the obstacle by 0.5"},
-    {"BelowAPolyline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {-9.0, 0.5, 0.0, 0.5, 0.0, -3.0}));
-     },
-     "scene.contacts[0]", "b@curve", "initial position penetrates the obstacle by 0.5"},
-    {"TurnNotFinite",
-     [](auto& r) {
+    {WithCurve(CurveThrough(kSpline, {-9.0, 0.5, 9.0, 0.5})), "scene.contacts[0]", "b@curve",
+     "initial position penetrates the obstacle by 0.5"},
+    {WithCurve(CurveThrough(kPolyline, {-9.0, 0.5, 0.0, 0.5, 0.0, -3.0})), "scene.contacts[0]", "b@curve",
+     "initial position penetrates the obstacle by 0.5"},
+    {[](auto& r) {
        AddCurve(&r, Disc(-5.0, -2.0, 2.0, false));
        r.scene.obstacle_motions = {{"curve", 0.0, 0.0, kInfinity}};
      },
-     "scene.obstacle_motions[0].turn", ".inf", "must be finite"}};
+     "scene.obstacle_motions[0].turn", ".inf", "must be finite"},
+};
 
-INSTANTIATE_TEST_SUITE_P(Rules, CurveRulesTest, testing::ValuesIn(kCurveRules), NameOf<BrokenRule>);
+TEST(CurveRulesTest, BrokenRulesAreReportedAlone) {
+  for (const BrokenRule& rule : kRules) ExpectBrokenAlone(rule, SoundRequest());
+}
 
 TEST(CurveRules, ThoseThatKeepTheirRulesAreSound) {
   TraceRequest request = SoundRequest();
   Obstacle curve = Disc(-5.0, -2.0, 2.0, false);
   AddCurve(&request, curve);
-  curve = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+  curve = Corner(2.0);
   curve.name = "polyline";
-  curve.fillet = 2.0;
   AddCurve(&request, curve);
   curve = CurveThrough(kSpline, {9.0, 3.0, 0.0, 2.0, -9.0, 3.0});  // walked to the left: the admissible side is below
   curve.name = "spline";
