@@ -131,8 +131,8 @@ contact_path_add_stage(geometry NAMES admissible_patches_test capsule_tree_test 
   spline_test surface_test)
 contact_path_add_stage(scene NAMES boundary_rules_test can_slide_test cell_test change_units_test curve_rules_test
   element_names_test expand_test field_test nearest_name_test text_test origin_test quantity_test
-  part_rules_test program_rules_test reacting_parts_test read_scene_test request_field_test scaling_test scene_test
-  solid_rules_test validate_test violation_test write_scene_test)
+  part_rules_test program_rules_test reacting_parts_test read_scene_test read_scene_violations_test request_field_test scaling_test
+  scene_test scenes_test solid_rules_test validate_test violation_test write_scene_test)
 contact_path_add_stage(structure NAMES attached_element_test bar_test beam_test elastica_test material_test solid_test
   structure_test)
 contact_path_add_stage(linear NAMES blas_test bordered_solver_test minimum_norm_test out_of_memory_test
