@@ -166,7 +166,8 @@ contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_t
   return_detector_test samples_test singular_scenes_test singular_trusses_test sizes_test slack_bars_test sliding_test small_and_stiff_test solid_paths_test stop_test
   surface_scenes_test tendons_test total_law_test trace_test)
 contact_path_add_stage(study NAMES path_column_test study_outputs_test)
-contact_path_add_stage(verify LONG SHARDS 2 NAMES verdicts_test verify_end_test verify_events_test verify_path_test)
+contact_path_add_stage(verify LONG SHARDS 2 NAMES inner_states_test verdicts_test verify_end_test verify_events_test verify_jumps_test
+  verify_path_test verify_tampering_test)
 target_include_directories(verify_tests PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 contact_path_add_stage(cli NAMES event_table_test progress_test)
 target_link_libraries(cli_tests contact_path_terminal)

@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Presets, Arch,
 // A von Mises truss with both feet on the floor and no support at all. Nothing is stressed at the start.
 TraceRequest TwoFeet(double friction) {
   TraceRequest request = ReadExample("rough_truss");
-  request.scene.nodes[0] = {"left", -1.0, 0.0, false, false};
+  request.scene.nodes[0] = {"left", -1.0, 0.0};
   request.scene.obstacles[0].friction = friction;
   request.scene.contacts = {{"left", "floor"}, {"foot", "floor"}};
   return request;
@@ -210,15 +210,13 @@ TraceRequest Strip(double friction, double kx, double ky, const std::vector<doub
   TraceRequest request;
   Scene& scene = request.scene;
   scene.name = "strip";
-  const auto bar = [&scene](const std::string& a, const std::string& b) {
-    scene.bars.push_back({{a, b}, 1.0, 0.0, StrainMeasure::kBiot});
-  };
+  const auto bar = [&scene](const std::string& a, const std::string& b) { scene.bars.push_back({{a, b}, 1.0}); };
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   for (int i = 0; i < kColumns; ++i) {
     const std::string b = "b" + std::to_string(i), t = "t" + std::to_string(i);
     const auto k = static_cast<std::size_t>(i);
-    scene.nodes.push_back({b, static_cast<double>(i), 0.1, false, false});
-    scene.nodes.push_back({t, static_cast<double>(i), 1.1, false, false});
+    scene.nodes.push_back({b, static_cast<double>(i), 0.1});
+    scene.nodes.push_back({t, static_cast<double>(i), 1.1});
     bar(b, t);
     if (i > 0) {
       const std::string b0 = "b" + std::to_string(i - 1), t0 = "t" + std::to_string(i - 1);
@@ -228,7 +226,7 @@ TraceRequest Strip(double friction, double kx, double ky, const std::vector<doub
       bar(t0, b);
     }
     scene.superelements.push_back({{t}, {kx, 0.0, 0.0, ky}});
-    scene.loads.push_back({t, fx[k], fy[k], false});
+    scene.loads.push_back({t, fx[k], fy[k]});
     scene.contacts.push_back({b, "floor"});
   }
   return request;
@@ -392,13 +390,9 @@ TEST_F(PushedStrip, SameForAllStepsAndInOtherFrames) {
 TraceRequest StartAtLimit(double direction) {
   TraceRequest request;
   request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"p", 1.0, 0.0, false, true}};
-  Bar bar;
-  bar.nodes = {"a", "p"};
-  bar.EA = 1.0;
-  bar.strain = StrainMeasure::kGreenLagrange;
-  request.scene.bars = {bar};
+  request.scene.bars = {{{"a", "p"}, 1.0, 0.0, StrainMeasure::kGreenLagrange}};
   request.scene.superelements = {{{"p"}, {-1.0, 0.0, 0.0, 0.0}, {}}};
-  request.scene.loads = {{"p", 1.0, 0.0, false}};
+  request.scene.loads = {{"p", 1.0, 0.0}};
   request.options.direction = direction;
   request.options.max_increments = 30;
   return request;

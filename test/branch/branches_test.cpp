@@ -78,9 +78,9 @@ struct LinearProblem {
     Superelement part;
     for (Index i = 0; i < n(); ++i) {
       const std::string name = "n" + std::to_string(i);
-      scene.nodes.push_back({name, 3.0 * static_cast<double>(i), 0.0, false, false});
+      scene.nodes.push_back({name, 3.0 * static_cast<double>(i), 0.0});
       part.nodes.push_back(name);
-      scene.loads.push_back({name, load[2 * i], load[2 * i + 1], false});
+      scene.loads.push_back({name, load[2 * i], load[2 * i + 1]});
       const Vector2d reaction = rn[Size(i)] * Normal(i) + rt[Size(i)] * Tangent(i);
       scene.loads.push_back({name, -reaction.x(), -reaction.y(), true});
       scene.obstacles.push_back({"o" + std::to_string(i), ObstacleShape::kHalfPlane, 3.0 * static_cast<double>(i), 0.0,
@@ -282,10 +282,10 @@ TEST(FindBranches, ManyContactsAtOnce) {
   Random random(2);
   for (int i = 0; i < 12; ++i) {
     const std::string name = "n" + std::to_string(i);
-    scene.nodes.push_back({name, static_cast<double>(i), 0.0, false, false});
+    scene.nodes.push_back({name, static_cast<double>(i), 0.0});
     scene.superelements.push_back({{name}, {1.0, 0.0, 0.0, 1.0}});
     const double fx = random.Number(-1.0, 1.0), fy = random.Number(-1.0, 0.3);
-    scene.loads.push_back({name, fx, fy, false});
+    scene.loads.push_back({name, fx, fy});
     scene.contacts.push_back({name, "floor"});
     if (fy > 0.0)
       expected.push_back(kOpen);
@@ -407,7 +407,7 @@ TEST(FindBranches, ManyCoupledContacts) {
 TEST(FindBranches, BranchesThatBreakASymmetryAreMirrors) {
   const TracedPath path = [] {
     TraceRequest request = ReadExample("rough_truss");
-    request.scene.nodes[0] = {"left", -1.0, 0.0, false, false};
+    request.scene.nodes[0] = {"left", -1.0, 0.0};
     request.scene.contacts.push_back({"left", "floor"});
     return TraceIncrements(request);
   }();
@@ -426,9 +426,9 @@ TEST(FindBranches, BranchesThatBreakASymmetryAreMirrors) {
 // Two bars in a row, hinged and free at the end.
 TEST(FindBranches, RigidModes) {
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}, {"c", 2.0, 0.5, false, false}};
-  scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}, {{"b", "c"}, 1.0, 0.0, StrainMeasure::kBiot}};
-  scene.loads = {{"b", 1.0, 0.0, false}};
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0}, {"c", 2.0, 0.5}};
+  scene.bars = {{{"a", "b"}, 1.0}, {{"b", "c"}, 1.0}};
+  scene.loads = {{"b", 1.0, 0.0}};
   Rest rest(scene);
   const BranchSet on = rest.FromStart(1.0);
   // The load stretches the first bar; the second swings freely, and of all motions that keep its length this is the
@@ -438,7 +438,7 @@ TEST(FindBranches, RigidModes) {
   EXPECT_NEAR(on.branches[0].direction[1] / on.branches[0].direction[0], -1.0 / 3.0, 1e-12);
   EXPECT_NEAR(on.branches[0].load_rate / on.branches[0].direction[0], 1.0, 1e-12);
   // Nothing bears a load across the bars.
-  scene.loads = {{"c", 0.0, 1.0, false}};
+  scene.loads = {{"c", 0.0, 1.0}};
   EXPECT_TRUE(Rest(scene).FromStart(1.0).branches.empty());
 }
 

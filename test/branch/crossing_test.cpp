@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "branch/example_scenes.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
@@ -16,16 +17,8 @@ constexpr double kRise = 3.0;
 
 TraceRequest HighTruss(double sideways = 0.0) {
   TraceRequest request;
-  Scene& scene = request.scene;
-  scene.name = "high_truss";
-  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, kRise, false, false}, {"right", 1.0, 0.0, true, true}};
-  for (const char* foot : {"left", "right"}) {
-    Bar bar;
-    bar.nodes = {foot, "apex"};
-    bar.EA = 1.0;
-    scene.bars.push_back(bar);
-  }
-  scene.loads = {{"apex", sideways, -1.0, false}};
+  request.scene = tall_truss::MakeScene(kRise);
+  request.scene.loads = {{"apex", sideways, -1.0}};
   request.options.max_increments = 120;
   return request;
 }
@@ -138,13 +131,10 @@ TEST(Crossing, OfEqualPartsIsOfEachAloneAndOfAllTogether) {
   for (int i = 0; i < 3; ++i) {
     const std::string foot = "foot" + std::to_string(i), top = "top" + std::to_string(i);
     request.scene.nodes.push_back({foot, 2.0 * i, 0.0, true, true});
-    request.scene.nodes.push_back({top, 2.0 * i, 1.0, false, false});
-    Bar bar;
-    bar.nodes = {foot, top};
-    bar.EA = 10.0;
-    request.scene.bars.push_back(bar);
+    request.scene.nodes.push_back({top, 2.0 * i, 1.0});
+    request.scene.bars.push_back({{foot, top}, 10.0});
     request.scene.superelements.push_back({{top}, {2.0, 0.0, 0.0, 0.0}});
-    request.scene.loads.push_back({top, 0.0, -1.0, false});
+    request.scene.loads.push_back({top, 0.0, -1.0});
   }
   request.scene.name = "columns";
   request.options.max_increments = 100;

@@ -33,9 +33,9 @@ class NodeOnADisc : public testing::Test {
   }
   static Scene MakeScene() {
     Scene scene;
-    scene.nodes = {{"p", 0.2, 0.3, false, false}};
+    scene.nodes = {{"p", 0.2, 0.3}};
     scene.superelements = {{{"p"}, {1.3, 0.0, 0.0, 0.8}}};
-    scene.loads = {{"p", 1.0, -0.2, false}};
+    scene.loads = {{"p", 1.0, -0.2}};
     return scene;
   }
   // Equilibrium K (x - X) - s f = r_n n + r_t t with r_t = ratio r_n.

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_TEST_BRANCH_EXAMPLE_SCENES_H_
 
 #include <cmath>
-#include <vector>
 
 #include "contact_path/scene/scene.h"
 #include "support/reference_cases.h"
@@ -46,15 +45,15 @@ inline Scene MakeScene(double clearance, double friction) {
   Scene scene;
   scene.name = "swing";
   scene.nodes = {{"left", -1.0, 0.0, true, true},
-                 {"apex", 0.0, 1.0, false, false},
+                 {"apex", 0.0, 1.0},
                  {"right", 1.0, 0.0, true, true},
                  {"c", kCentreX, kCentreY, true, true},
-                 {"q", x, y, false, false}};
-  scene.bars = {{{"left", "apex"}, 1.0, 0.0, StrainMeasure::kBiot},
-                {{"apex", "right"}, 1.0, 0.0, StrainMeasure::kBiot},
+                 {"q", x, y}};
+  scene.bars = {{{"left", "apex"}, 1.0},
+                {{"apex", "right"}, 1.0},
                 {{"c", "q"}, 1.0, kRadius, StrainMeasure::kBiot},
                 {{"apex", "q"}, 1.0, kArm, StrainMeasure::kBiot}};
-  scene.loads = {{"apex", 0.0, -1.0, false}};
+  scene.loads = {{"apex", 0.0, -1.0}};
   scene.obstacles = {{"ceiling", ObstacleShape::kHalfPlane, 0.0, kCentreY + kRadius + clearance, 0.0, -1.0, friction}};
   scene.contacts = {{"q", "ceiling"}};
   return scene;
@@ -85,10 +84,10 @@ inline double Dissipation(double w) { return kFriction * (1.0 - w); }
 inline Scene MakeScene() {
   Scene scene;
   scene.name = "snap_block";
-  scene.nodes = {{"p", 1.0, 0.0, false, false}, {"up", 0.0, 0.75, true, false}, {"down", 0.0, -0.75, true, false}};
-  scene.bars = {{{"p", "up"}, 1.0, 0.0, StrainMeasure::kBiot}, {{"p", "down"}, 1.0, 0.0, StrainMeasure::kBiot}};
+  scene.nodes = {{"p", 1.0, 0.0}, {"up", 0.0, 0.75, true, false}, {"down", 0.0, -0.75, true, false}};
+  scene.bars = {{{"p", "up"}, 1.0}, {{"p", "down"}, 1.0}};
   scene.superelements = {{{"p"}, {-3.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"up", 0.0, 1.0, false}, {"down", 0.0, -1.0, false}, {"p", 0.0, -1.0, true}};
+  scene.loads = {{"up", 0.0, 1.0}, {"down", 0.0, -1.0}, {"p", 0.0, -1.0, true}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, kFriction}};
   scene.contacts = {{"p", "floor"}};
   return scene;
@@ -112,13 +111,12 @@ inline double BifurcationY() {
   return y;
 }
 
-inline Scene MakeScene() {
+inline Scene MakeScene(double rise = kRise) {
   Scene scene;
   scene.name = "tall_truss";
-  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, kRise, false, false}, {"right", 1.0, 0.0, true, true}};
-  scene.bars = {{{"left", "apex"}, 1.0, 0.0, StrainMeasure::kBiot},
-                {{"apex", "right"}, 1.0, 0.0, StrainMeasure::kBiot}};
-  scene.loads = {{"apex", 0.0, -1.0, false}};
+  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, rise}, {"right", 1.0, 0.0, true, true}};
+  scene.bars = {{{"left", "apex"}, 1.0}, {{"apex", "right"}, 1.0}};
+  scene.loads = {{"apex", 0.0, -1.0}};
   return scene;
 }
 
@@ -129,9 +127,9 @@ inline Scene MakeScene() {
 inline Scene SpringAndBlock() {
   Scene scene;
   scene.name = "spring_and_block";
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
-  scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
+  scene.loads = {{"p", 1.0, 0.0}, {"p", 0.0, -1.0, true}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
   scene.contacts = {{"p", "floor"}};
   return scene;

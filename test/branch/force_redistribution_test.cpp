@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "contact_path/path/model.h"
@@ -168,7 +167,7 @@ TEST(ForceRedistributions, HalfFixedNode) {
 TEST(ForceRedistributions, CombinationsOfTwoNodes) {
   Scene scene = Corner::SceneOf(
       {{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}, {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}}, false);
-  scene.nodes.push_back({"q", 0.0, 0.0, false, false});
+  scene.nodes.push_back({"q", 0.0, 0.0});
   scene.superelements.push_back({{"q"}, {1.0, 0.0, 0.0, 1.0}});
   scene.contacts.push_back({"q", "belt"});
   scene.contacts.push_back({"q", "stop"});

@@ -29,10 +29,7 @@ Scene BesideSurface(const std::vector<Eigen::Vector2d>& places, bool closed, dou
   }
   for (const Node& node : scene.nodes) scene.superelements.push_back({{node.name}, {stiffness, 0.0, 0.0, stiffness}});
   scene.surfaces = {surface};
-  scene.contacts.resize(1);
-  scene.contacts[0].node = "p";
-  scene.contacts[0].surface = "top";
-  scene.contacts[0].friction = 0.3;
+  scene.contacts = {{"p", "", "", "top", 0.3}};
   return scene;
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
@@ -53,9 +52,9 @@ std::vector<Obstacle> Shapes() {
 // A node on two springs beside the shape.
 Scene Beside(const Obstacle& obstacle) {
   Scene scene;
-  scene.nodes = {{"p", 0.1, 1.0, false, false}};
+  scene.nodes = {{"p", 0.1, 1.0}};
   scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 3.0}}};
-  scene.loads = {{"p", 1.0, 0.0, false}};
+  scene.loads = {{"p", 1.0, 0.0}};
   scene.obstacles = {obstacle};
   scene.contacts = {{"p", obstacle.name}};
   return scene;

@@ -56,10 +56,10 @@ TEST(SceneContacts, FollowTheOrderOfTheScene) {
 // A node on a part that is softer across the floor than along it.
 double ForceUnitOf(double along, double across, bool beside_a_bar = false, double load = 0.0) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 1.0, 0.0, true, true}};
+  scene.nodes = {{"p", 0.0, 0.0}, {"q", 1.0, 0.0, true, true}};
   scene.superelements = {{{"p"}, {along, 0.0, 0.0, across}}};
-  if (beside_a_bar) scene.bars = {{{"p", "q"}, 1.0, 0.0, StrainMeasure::kBiot}};
-  scene.loads = {{"p", 0.0, load, false}};
+  if (beside_a_bar) scene.bars = {{{"p", "q"}, 1.0}};
+  scene.loads = {{"p", 0.0, load}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
   scene.contacts = {{"p", "floor"}};
   const Structure structure(scene);

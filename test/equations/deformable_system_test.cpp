@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "contact_path/contact/scene_contacts.h"
 #include "contact_path/equations/fixed_mode_system.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseLU>
-#include <cmath>
 #include <string>
 
 #include "contact_path/contact/scene_contacts.h"
@@ -371,15 +370,15 @@ Scene WithLattice(Scene scene, int side) {
   scene.nodes.push_back({"fixed", 1.0, 2.0, true, true});
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
-      scene.nodes.push_back({name(i, j), 1.5 + 0.1 * i, 1.9 + 0.1 * j, false, false});
-      if (i > 0) scene.bars.push_back({{name(i - 1, j), name(i, j)}, 1.0, 0.0, StrainMeasure::kBiot});
-      if (j > 0) scene.bars.push_back({{name(i, j - 1), name(i, j)}, 1.0, 0.0, StrainMeasure::kBiot});
-      if (i > 0 && j > 0) scene.bars.push_back({{name(i - 1, j - 1), name(i, j)}, 0.7, 0.0, StrainMeasure::kBiot});
+      scene.nodes.push_back({name(i, j), 1.5 + 0.1 * i, 1.9 + 0.1 * j});
+      if (i > 0) scene.bars.push_back({{name(i - 1, j), name(i, j)}, 1.0});
+      if (j > 0) scene.bars.push_back({{name(i, j - 1), name(i, j)}, 1.0});
+      if (i > 0 && j > 0) scene.bars.push_back({{name(i - 1, j - 1), name(i, j)}, 0.7});
     }
-  scene.bars.push_back({{"c", name(0, 0)}, 1.0, 0.0, StrainMeasure::kBiot});
-  scene.bars.push_back({{"c", name(1, 0)}, 1.0, 0.0, StrainMeasure::kBiot});
-  scene.bars.push_back({{"fixed", name(0, 1)}, 1.0, 0.0, StrainMeasure::kBiot});
-  scene.bars.push_back({{"fixed", name(0, 3)}, 1.0, 0.0, StrainMeasure::kBiot});
+  scene.bars.push_back({{"c", name(0, 0)}, 1.0});
+  scene.bars.push_back({{"c", name(1, 0)}, 1.0});
+  scene.bars.push_back({{"fixed", name(0, 1)}, 1.0});
+  scene.bars.push_back({{"fixed", name(0, 3)}, 1.0});
   return scene;
 }
 
@@ -445,7 +444,7 @@ void ExpectSolvedInFrame(const Scene& scene) {
 // motion it is the only unknown.
 TEST(FixedModeSystem, NormDoesNotDependOnTheAxesOfASupport) {
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.5, false, false}};
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.5}};
   scene.bars = {{{"a", "b"}, 1.0}};
   const auto norm = [&](const SupportMotion& motion, const Eigen::VectorXd& change) {
     scene.support_motions = {motion};

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "contact_path/contact/scene_contacts.h"
@@ -112,9 +111,9 @@ TEST(NearestPoint, RedundantContactsAreNoObstacle) {
 // A bar that nothing but its constant length holds: of all equilibria the nearest is taken.
 TEST(NearestPoint, RigidModesAreNoObstacle) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 1.0, 0.0, false, false}};
-  scene.bars = {{{"p", "q"}, 1.0, 0.0, StrainMeasure::kBiot}};
-  scene.loads = {{"p", -1.0, 0.0, false}, {"q", 1.0, 0.0, false}};
+  scene.nodes = {{"p", 0.0, 0.0}, {"q", 1.0, 0.0}};
+  scene.bars = {{{"p", "q"}, 1.0}};
+  scene.loads = {{"p", -1.0, 0.0}, {"q", 1.0, 0.0}};
   const Structure structure(scene);
   const Laws none;
   FixedModeSystem system(structure, none);

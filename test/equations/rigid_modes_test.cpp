@@ -14,17 +14,15 @@ constexpr double kRounding = 1e-13;
 // A triangle of bars over a floor that its two lower nodes touch.
 Scene Triangle(double friction) {
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, false, false}, {"b", 1.0, 0.0, false, false}, {"c", 0.4, 0.9, false, false}};
-  scene.bars = {{{"a", "b"}, 1e6, 0.0, StrainMeasure::kBiot},
-                {{"b", "c"}, 1.0, 0.0, StrainMeasure::kBiot},
-                {{"c", "a"}, 20.0, 0.0, StrainMeasure::kBiot}};
+  scene.nodes = {{"a", 0.0, 0.0}, {"b", 1.0, 0.0}, {"c", 0.4, 0.9}};
+  scene.bars = {{{"a", "b"}, 1e6}, {{"b", "c"}, 1.0}, {{"c", "a"}, 20.0}};
   Obstacle floor;
   floor.name = "floor";
   floor.ny = 1.0;
   floor.friction = friction;
   scene.obstacles = {floor};
   scene.contacts = {{"a", "floor"}, {"b", "floor"}};
-  scene.loads = {{"c", 0.0, -1.0, false}};
+  scene.loads = {{"c", 0.0, -1.0}};
   return scene;
 }
 

@@ -37,7 +37,7 @@ ExtremeCase RedundantSupports() {
   Scene scene;
   scene.nodes = {{"a", -1.0, 0.0, true, true}, {"b", 0.0, 0.0, false, true}, {"c", 1.0, 0.0, true, true}};
   scene.bars = {{{"a", "b"}, 1.0}, {{"b", "c"}, 1.0}, {{"a", "c"}, 5.0}};
-  scene.loads = {{"b", 1.0, 0.0, false}};
+  scene.loads = {{"b", 1.0, 0.0}};
   extreme.request = Until(scene, "b.x", ">", 0.5);
   extreme.exact = "closed form";
   extreme.error = [](const TraceRequest&, const Increment& increment) {
@@ -50,9 +50,9 @@ ExtremeCase RedundantSupports() {
 ExtremeCase Corner(double friction) {
   ExtremeCase extreme{"two obstacles at one node", "corner, mu = " + Text(friction)};
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"p", 1.0, -1.0, false}};
+  scene.loads = {{"p", 1.0, -1.0}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction},
                      {"wall", ObstacleShape::kHalfPlane, 0.0, 0.0, -1.0, 0.0, friction}};
   scene.contacts = {{"p", "floor"}, {"p", "wall"}};
@@ -73,9 +73,9 @@ ExtremeCase Wedge(double friction, double clearance) {
   ExtremeCase extreme{"two obstacles at one node",
                       "opposite walls, clearance " + Text(clearance) + ", mu = " + Text(friction)};
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"p", 0.0, 1.0, false}, {"p", kPress, 0.0, true}};
+  scene.loads = {{"p", 0.0, 1.0}, {"p", kPress, 0.0, true}};
   scene.obstacles = {{"left", ObstacleShape::kHalfPlane, 0.0, 0.0, 1.0, 0.0, friction},
                      {"right", ObstacleShape::kHalfPlane, clearance, 0.0, -1.0, 0.0, friction}};
   scene.contacts = {{"p", "left"}, {"p", "right"}};
@@ -102,9 +102,9 @@ ExtremeCase CoincidentNodes() {
   ExtremeCase extreme{"coincident nodes", "three nodes, one wall"};
   Scene scene;
   for (const char* const name : {"p", "q", "r"}) {
-    scene.nodes.push_back({name, 0.0, 0.0, false, false});
+    scene.nodes.push_back({name, 0.0, 0.0});
     scene.superelements.push_back({{name}, {1.0, 0.0, 0.0, 1.0}});
-    scene.loads.push_back({name, 1.0, 0.0, false});
+    scene.loads.push_back({name, 1.0, 0.0});
     scene.contacts.push_back({name, "wall"});
   }
   scene.obstacles = {{"wall", ObstacleShape::kHalfPlane, 0.25, 0.0, -1.0, 0.0, 0.3}};
@@ -130,9 +130,9 @@ ExtremeCase ManyAtOnce(std::size_t count, double more, double friction) {
   Scene scene;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = "p" + std::to_string(i), wall = "w" + std::to_string(i);
-    scene.nodes.push_back({name, 0.0, 0.0, false, false});
+    scene.nodes.push_back({name, 0.0, 0.0});
     scene.superelements.push_back({{name}, {1.0, 0.0, 0.0, 1.0}});
-    scene.loads.push_back({name, 1.0, 0.0, false});
+    scene.loads.push_back({name, 1.0, 0.0});
     scene.obstacles.push_back(
         {wall, ObstacleShape::kHalfPlane, kFirst + static_cast<double>(i) * more, 0.0, -1.0, 0.0, friction});
     scene.contacts.push_back({name, wall});

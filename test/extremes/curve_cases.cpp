@@ -18,9 +18,9 @@ constexpr double kSmallestDisc = 5e-9, kSmallestFillet = 5e-7;
 // A node on springs that 1 presses down onto the obstacle at the origin, and the load factor pushes to the right.
 Scene PressedNode(const Obstacle& obstacle) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
+  scene.loads = {{"p", 1.0, 0.0}, {"p", 0.0, -1.0, true}};
   scene.obstacles = {obstacle};
   scene.contacts = {{"p", obstacle.name}};
   return scene;

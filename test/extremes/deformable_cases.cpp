@@ -3,8 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,9 +49,9 @@ struct PressedNode {
 
   ExtremeCase Case(const std::string& group, const std::string& value) const {
     Scene scene;
-    scene.nodes = {{"p", 0.0, radius + gap, false, false}};
+    scene.nodes = {{"p", 0.0, radius + gap}};
     scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-    scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
+    scene.loads = {{"p", 1.0, 0.0}, {"p", 0.0, -1.0, true}};
     std::vector<Eigen::Vector2d> places = {{-0.3, 0.0}};
     for (const double edge : edges) places.emplace_back(places.back() + Eigen::Vector2d(edge, 0.0));
     AddSurface(places, radius, &scene);
@@ -77,9 +75,9 @@ struct PressedNode {
 ExtremeCase InValley(double room) {
   const double radius = 1.0 - room, bottom = 0.125 + radius;
   Scene scene;
-  scene.nodes = {{"p", 0.0, bottom, false, false}};
+  scene.nodes = {{"p", 0.0, bottom}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
+  scene.loads = {{"p", 1.0, 0.0}, {"p", 0.0, -1.0, true}};
   AddSurface({{-1.0, 0.5}, {0.0, 0.0}, {1.0, 0.5}}, radius, &scene);
   scene.contacts = {Touching("p", kFriction)};
   ExtremeCase extreme{"surface, radius below that of its bend", "by " + Text(room) + " of it"};

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "extremes/extreme_case.h"
+#include "support/beams.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -17,14 +17,8 @@ constexpr int kSegments = 10;
 // Clamped at (0, 0), of length 1 along x.
 Scene Cantilever(double EA, double EI) {
   Scene scene;
-  scene.nodes = {{"root", 0.0, 0.0, true, true, true}, {"tip", 1.0, 0.0, false, false}};
-  Beam beam;
-  beam.name = "leg";
-  beam.nodes = {"root", "tip"};
-  beam.EA = EA;
-  beam.EI = EI;
-  beam.segments = kSegments;
-  scene.beams = {beam};
+  scene.nodes = {{"root", 0.0, 0.0, true, true, true}, {"tip", 1.0, 0.0}};
+  scene.beams = {Between("leg", "root", "tip", EA, EI, kSegments)};
   return scene;
 }
 
@@ -117,7 +111,7 @@ ExtremeCase SoftBeforeStiff(double ratio) {
   const double soft = 1.0 / std::sqrt(ratio), stiff = std::sqrt(ratio);
   ExtremeCase extreme{"beams of different EI in a row", "ratio " + Text(ratio)};
   Scene scene = Cantilever(1e2 * soft, soft);
-  scene.nodes.push_back({"end", 2.0, 0.0, false, false});
+  scene.nodes.push_back({"end", 2.0, 0.0});
   Beam beam = scene.beams[0];
   beam.name = "stiff";
   beam.nodes = {"tip", "end"};

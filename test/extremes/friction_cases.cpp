@@ -33,9 +33,9 @@ ExtremeCase SlidingBar(double friction) {
 ExtremeCase StickingTruss(double friction) {
   ExtremeCase extreme{"coefficient of friction, sticking", "mu = " + Text(friction)};
   Scene scene;
-  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"foot", 1.0, 0.0, false, false}, {"apex", 0.0, 1.2, true, false}};
+  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"foot", 1.0, 0.0}, {"apex", 0.0, 1.2, true, false}};
   scene.bars = {{{"left", "apex"}, 1.0}, {{"apex", "foot"}, 1.0}};
-  scene.loads = {{"apex", 0.0, -1.0, false}};
+  scene.loads = {{"apex", 0.0, -1.0}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   scene.contacts = {{"foot", "floor"}};
   // Slope of the bars 1 / mu: there it would slip.

@@ -14,7 +14,7 @@ ExtremeCase ThroughZero(StrainMeasure strain) {
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, true}};
   scene.bars = {{{"a", "b"}, 1.0, 0.0, strain}};
-  scene.loads = {{"b", -1.0, 0.0, false}};
+  scene.loads = {{"b", -1.0, 0.0}};
   extreme.exact = "closed form";
   if (strain == StrainMeasure::kLogarithmic) {
     extreme.request = Until(scene, "load_factor", ">", 1e12, 0.0, 3000);  // the load grows without bounds
@@ -38,7 +38,7 @@ Scene Arch(double rise) {
   Scene scene;
   scene.nodes = {{"left", -1.0, 0.0, true, true}, {"right", 1.0, 0.0, true, true}, {"apex", 0.0, rise, true, false}};
   scene.bars = {{{"left", "apex"}, 1.0}, {{"apex", "right"}, 1.0}};
-  scene.loads = {{"apex", 0.0, -1.0, false}};
+  scene.loads = {{"apex", 0.0, -1.0}};
   return scene;
 }
 
@@ -90,9 +90,9 @@ ExtremeCase NextToLimit(double below) {
 ExtremeCase Mechanism() {
   ExtremeCase extreme{"mechanism", "a bar that nothing keeps from turning"};
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0}};
   scene.bars = {{{"a", "b"}, 1.0}};
-  scene.loads = {{"b", 0.0, 1.0, false}};
+  scene.loads = {{"b", 0.0, 1.0}};
   extreme.request = Until(scene, "load_factor", ">", 1.0);
   extreme.ends = {"path_end"};
   return extreme;
@@ -102,10 +102,9 @@ ExtremeCase Mechanism() {
 ExtremeCase WithoutSupports() {
   ExtremeCase extreme{"mechanism", "a truss without supports on a smooth floor"};
   Scene scene;
-  scene.nodes = {
-      {"left", -1.0, 0.0, false, false}, {"right", 1.0, 0.0, false, false}, {"apex", 0.0, 0.5, false, false}};
+  scene.nodes = {{"left", -1.0, 0.0}, {"right", 1.0, 0.0}, {"apex", 0.0, 0.5}};
   scene.bars = {{{"left", "apex"}, 1.0}, {{"apex", "right"}, 1.0}};
-  scene.loads = {{"apex", 0.0, -1.0, false}};
+  scene.loads = {{"apex", 0.0, -1.0}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
   scene.contacts = {{"left", "floor"}, {"right", "floor"}};
   extreme.request = Until(scene, "load_factor", ">", 1.0);

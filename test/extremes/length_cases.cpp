@@ -1,5 +1,4 @@
 // Increments from tiny to as large as the scene, and very long traces.
-#include <cmath>
 
 #include "extremes/extreme_case.h"
 #include "support/reference_cases.h"

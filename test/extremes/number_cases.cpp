@@ -23,7 +23,7 @@ ExtremeCase Chain(double soft, double stiff) {
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, true}, {"c", 2.0, 0.0, false, true}};
   scene.bars = {{{"a", "b"}, soft}, {{"b", "c"}, stiff}};
-  scene.loads = {{"c", 1.0, 0.0, false}};
+  scene.loads = {{"c", 1.0, 0.0}};
   scene.obstacles = {{"wall", ObstacleShape::kHalfPlane, 2.0 + kGap, 0.0, -1.0, 0.0, 0.0}};
   scene.contacts = {{"c", "wall"}};
   const double compliance = 1.0 / soft + 1.0 / stiff, at_wall = kGap / compliance;
@@ -158,9 +158,9 @@ ExtremeCase Cancelling(double difference) {
   ExtremeCase extreme{"loads that nearly cancel",
                       "difference " + Text(difference) + ", s up to " + Text(2.0 / difference)};
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"p", 1.0 + difference, 0.0, false}, {"p", -1.0, 0.0, false}};
+  scene.loads = {{"p", 1.0 + difference, 0.0}, {"p", -1.0, 0.0}};
   scene.obstacles = {{"stop", ObstacleShape::kHalfPlane, 1.0, 0.0, -1.0, 0.0, 0.5}};
   scene.contacts = {{"p", "stop"}};
   const double load = (1.0 + difference) - 1.0;

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
-#include <memory>
-#include <vector>
 
 #include "contact_path/contact/tendon_eye.h"
 #include "contact_path/structure/even_strain.h"

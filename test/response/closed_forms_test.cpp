@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 

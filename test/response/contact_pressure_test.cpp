@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/expand.h"

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <vector>

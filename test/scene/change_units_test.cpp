@@ -14,7 +14,7 @@ TEST(ChangeUnitsTest, EveryNumberHasItsUnit) {
   request.scene.nodes = {{"a", 1.0, 3.0, true, false}};
   request.scene.bars = {{{"a", "b"}, 1.0, 3.0, StrainMeasure::kBiot}};
   request.scene.superelements = {{{"a"}, {1.0, 2.0, 3.0, 4.0}, {5.0, 7.0}}};
-  request.scene.loads = {{"a", 1.0, 3.0, false}, {"a", 1.0, 3.0, true}};
+  request.scene.loads = {{"a", 1.0, 3.0}, {"a", 1.0, 3.0, true}};
   request.scene.obstacles = {{"o", ObstacleShape::kHalfPlane, 1.0, 3.0, 5.0, 7.0, 0.3}};
   request.scene.support_motions = {{"a", 1.0, 3.0}};
   request.scene.obstacle_motions = {{"o", 1.0, 3.0}};
@@ -23,7 +23,7 @@ TEST(ChangeUnitsTest, EveryNumberHasItsUnit) {
   request.options.step = 0.25;
   request.options.max_increments = 7;
   Stage stage;
-  stage.loads = {{"a", 5.0, 7.0, false}};
+  stage.loads = {{"a", 5.0, 7.0}};
   stage.target = 3.0;
   request.program = {stage};
 

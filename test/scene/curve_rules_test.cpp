@@ -10,9 +10,9 @@ namespace {
 // A bar from a pinned node a down to b, with a load.
 TraceRequest SoundRequest() {
   TraceRequest request;
-  request.scene.nodes = {{"a", 0.0, 5.0, true, true}, {"b", -5.0, 0.0, false, false}};
+  request.scene.nodes = {{"a", 0.0, 5.0, true, true}, {"b", -5.0, 0.0}};
   request.scene.bars = {{{"a", "b"}, 14.0}};
-  request.scene.loads = {{"b", 1.0, 0.0, false}};
+  request.scene.loads = {{"b", 1.0, 0.0}};
   return request;
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 
 #include "contact_path/scene/expand.h"
 #include "support/traced_path.h"

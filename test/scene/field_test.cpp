@@ -5,7 +5,6 @@
 #include <set>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 #include "contact_path/scene/key_path.h"
 #include "contact_path/scene/scene.h"

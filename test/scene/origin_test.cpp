@@ -7,7 +7,7 @@ namespace {
 
 Scene SceneAt(double x, double y) {
   Scene scene;
-  scene.nodes = {{"a", x, y + 5.0, true, true}, {"b", x - 5.0, y, false, false}};
+  scene.nodes = {{"a", x, y + 5.0, true, true}, {"b", x - 5.0, y}};
   scene.superelements = {{{"b"}, {1.0, 0.0, 0.0, 1.0}, {x - 4.0, y + 1.0}}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, x, y, 0.0, 1.0, 0.3}};
   return scene;

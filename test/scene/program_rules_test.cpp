@@ -22,7 +22,7 @@ TraceRequest SoundProgram() {
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 2.0, 0.3}};
   scene.contacts = {{"b", "floor"}};
   request.program.resize(2);
-  request.program[0].loads = {{"b", 2.0, 0.0, false}};
+  request.program[0].loads = {{"b", 2.0, 0.0}};
   request.program[0].obstacle_motions = {{"floor", 0.0, -1.0}};
   request.program[1].unload = true;
   return request;

@@ -17,9 +17,7 @@ TEST(SupportedNodes, HaveTheComponentsThatAreFixed) {
                  {"tip", 2.0, 0.0},
                  {"does_not_turn", 3.0, 0.0, false, true, true},
                  {"rotation_alone", 4.0, 0.0, false, false, true}};
-  Beam beam;
-  beam.nodes = {"turns", "tip"};
-  scene.beams = {beam};
+  scene.beams = {{"", {"turns", "tip"}}};
   const std::vector<SupportedNode> supports = SupportedNodes(scene);
   ASSERT_EQ(supports.size(), 3U);
   EXPECT_EQ(supports[0].node, 1U);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -14,6 +13,8 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
+#include "support/beams.h"
+#include "support/transformations.h"
 
 namespace contact_path::scaling_test {
 namespace {
@@ -26,18 +27,15 @@ constexpr double kRounding = 1e-14;
 Scene SceneWithBars() {
   Scene scene;
   scene.name = "bars";
-  scene.nodes = {{"a", 0.3, 5.1, true, true},
-                 {"b", -5.2, 0.4, false, false},
-                 {"c", 7.7, -1.3, false, false},
-                 {"d", 2.1, 2.2, false, false}};
-  scene.bars = {{{"a", "b"}, 3.1, 0.0, StrainMeasure::kBiot},
+  scene.nodes = {{"a", 0.3, 5.1, true, true}, {"b", -5.2, 0.4}, {"c", 7.7, -1.3}, {"d", 2.1, 2.2}};
+  scene.bars = {{{"a", "b"}, 3.1},
                 {{"b", "c"}, 0.7, 11.0, StrainMeasure::kGreenLagrange},
                 {{"c", "d"}, 5.9, 0.0, StrainMeasure::kLogarithmic}};
   scene.superelements = {{{"c", "d"},
                           {2.0, 0.5, -1.0, 0.3, 0.5, 3.0, 0.1, -0.7,  //
                            -1.0, 0.1, 4.0, 0.2, 0.3, -0.7, 0.2, 1.0}}};
-  scene.loads = {{"b", 1.3, 0.2, false}, {"c", 0.1, -0.9, true},  {"d", 0.3, -0.4, false},
-                 {"b", 0.7, 1.1, false}, {"a", 9.0, -8.0, false}, {"b", -0.6, 0.1, false}};
+  scene.loads = {{"b", 1.3, 0.2}, {"c", 0.1, -0.9, true}, {"d", 0.3, -0.4},
+                 {"b", 0.7, 1.1}, {"a", 9.0, -8.0},       {"b", -0.6, 0.1}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, -0.5, -4.0, 0.3, 2.0, 0.4}};
   scene.contacts = {{"b", "floor"}, {"c", "floor"}};
   return scene;
@@ -62,42 +60,10 @@ Scene SceneOfSoftParts() {
   return scene;
 }
 
-// The same scene with other units: one old unit of length is `length` new ones, and so on.
-Scene InUnits(Scene scene, double length, double force) {
-  for (Node& node : scene.nodes) node.x *= length, node.y *= length;
-  for (Bar& bar : scene.bars) bar.EA *= force, bar.rest_length *= length;
-  for (Superelement& element : scene.superelements) {
-    for (double& entry : element.stiffness) entry *= force / length;
-  }
-  for (Load& load : scene.loads) load.fx *= force, load.fy *= force;
-  for (Obstacle& obstacle : scene.obstacles) obstacle.px *= length, obstacle.py *= length;
-  return scene;
-}
-
-// The scene after the linear map (x, y) -> (m0 x + m1 y, m2 x + m3 y), a rotation or reflection.
-Scene Mapped(Scene scene, const std::array<double, 4>& m) {
-  const auto map = [&m](double& x, double& y) {
-    const double old_x = x;
-    x = m[0] * old_x + m[1] * y;
-    y = m[2] * old_x + m[3] * y;
-  };
-  for (Node& node : scene.nodes) map(node.x, node.y);
-  for (Load& load : scene.loads) map(load.fx, load.fy);
-  for (Obstacle& obstacle : scene.obstacles) {
-    map(obstacle.px, obstacle.py);
-    map(obstacle.nx, obstacle.ny);
-  }
-  for (Superelement& element : scene.superelements) {
-    const std::size_t rows = 2 * element.nodes.size();
-    std::vector<double>& matrix = element.stiffness;
-    for (std::size_t row = 0; row < rows; ++row) {
-      for (std::size_t j = 0; j < rows; j += 2) map(matrix[row * rows + j], matrix[row * rows + j + 1]);
-    }
-    for (std::size_t column = 0; column < rows; ++column) {
-      for (std::size_t i = 0; i < rows; i += 2) map(matrix[i * rows + column], matrix[(i + 1) * rows + column]);
-    }
-  }
-  return scene;
+TraceRequest RequestOf(const Scene& scene) {
+  TraceRequest request;
+  request.scene = scene;
+  return request;
 }
 
 void ExpectNear(double actual, double expected, const std::string& what) {
@@ -148,9 +114,7 @@ class ScalingTest : public testing::TestWithParam<std::function<Scene()>> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, ScalingTest, testing::Values(SceneWithBars, SceneWithoutBars, SceneOfSoftParts));
 
 TEST_P(ScalingTest, SceneIsSound) {
-  TraceRequest request;
-  request.scene = GetParam()();
-  for (const Violation& violation : Validate(request)) ADD_FAILURE() << violation.ToLine();
+  for (const Violation& violation : Validate(RequestOf(GetParam()()))) ADD_FAILURE() << violation.ToLine();
 }
 
 TEST_P(ScalingTest, UnitsChangeTheScalesAndNotTheScaledScene) {
@@ -158,7 +122,7 @@ TEST_P(ScalingTest, UnitsChangeTheScalesAndNotTheScaledScene) {
   const Scaling scaling = CharacteristicScales(scene);
   for (const double length : {1.0, 1000.0, 1.0 / 0.0254, 1e-40}) {
     for (const double force : {1.0, 4.4482216152605, 1e-3, 1e40}) {
-      const Scene other = InUnits(scene, length, force);
+      const Scene other = ChangeUnits(RequestOf(scene), length, force).scene;
       const Scaling other_scaling = CharacteristicScales(other);
       ExpectSame(other_scaling, {scaling.length * length, scaling.force * force, scaling.load_factor});
       ExpectSame(ScaleScene(other, other_scaling), ScaleScene(scene, scaling));
@@ -170,10 +134,8 @@ TEST_P(ScalingTest, RotationAndReflectionLeaveTheScales) {
   const Scene scene = GetParam()();
   const Scaling scaling = CharacteristicScales(scene);
   for (const double angle : {0.1, 0.7853981633974483, 2.0, -3.0}) {
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    ExpectSame(CharacteristicScales(Mapped(scene, {c, -s, s, c})), scaling);
-    ExpectSame(CharacteristicScales(Mapped(scene, {c, s, s, -c})), scaling);
+    ExpectSame(CharacteristicScales(Rotate(RequestOf(scene), angle).scene), scaling);
+    ExpectSame(CharacteristicScales(Rotate(Mirror(RequestOf(scene)), angle).scene), scaling);
   }
 }
 
@@ -234,9 +196,9 @@ TEST_P(ScalingTest, NamesOrderAndSupportsAreKept) {
 
 TEST(ScaleSceneTest, LoadsOfANodeCancelBeforeTheyAreRounded) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {3.0, 0.0, 0.0, 3.0}}};
-  scene.loads = {{"p", 1.0 + 1e-9, 0.0, false}, {"p", 0.0, 7.0, true}, {"p", -1.0, 0.0, false}};
+  scene.loads = {{"p", 1.0 + 1e-9, 0.0}, {"p", 0.0, 7.0, true}, {"p", -1.0, 0.0}};
   const Scaling scaling = CharacteristicScales(scene);
   const Scene scaled = ScaleScene(scene, scaling);
   ASSERT_EQ(scaled.loads.size(), 2u);
@@ -247,15 +209,11 @@ TEST(ScaleSceneTest, LoadsOfANodeCancelBeforeTheyAreRounded) {
 // Three bars of length 3, 4 and 5 with EA 1, 4 and 16; a load of norm 5 after summing, one on a support, one constant.
 TEST(CharacteristicScalesTest, WithBarsByHand) {
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 3.0, 0.0, false, false}, {"c", 3.0, 4.0, false, true}};
-  scene.bars = {{{"a", "b"}, 1.0, 100.0, {}}, {{"b", "c"}, 4.0, 0.0, {}}, {{"a", "c"}, 16.0, 0.0, {}}};
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 3.0, 0.0}, {"c", 3.0, 4.0, false, true}};
+  scene.bars = {{{"a", "b"}, 1.0, 100.0, {}}, {{"b", "c"}, 4.0}, {{"a", "c"}, 16.0}};
   // By far stiffer, and of no influence beside bars.
   scene.superelements = {{{"b"}, {1e9, 0.0, 0.0, 1e9}}};
-  scene.loads = {{"b", 2.0, 0.0, false},
-                 {"b", 1.0, 0.0, false},
-                 {"c", -4.0, 7.0, false},
-                 {"a", 8.0, 8.0, false},
-                 {"b", 50.0, 0.0, true}};
+  scene.loads = {{"b", 2.0, 0.0}, {"b", 1.0, 0.0}, {"c", -4.0, 7.0}, {"a", 8.0, 8.0}, {"b", 50.0, 0.0, true}};
   const Scaling scaling = CharacteristicScales(scene);
   EXPECT_NEAR(scaling.length, 4.0, kRounding);
   EXPECT_NEAR(scaling.force, 4.0, kRounding);
@@ -265,9 +223,9 @@ TEST(CharacteristicScalesTest, WithBarsByHand) {
 // sqrt((21.5 + 4) / (2 + 2)) is the mean stiffness.
 TEST(CharacteristicScalesTest, WithoutBarsByHand) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 1.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}, {"q", 1.0, 0.0}};
   scene.superelements = {{{"p"}, {1.0, -1.5, -1.5, 4.0}}, {{"q"}, {2.0, 0.0, 0.0, 0.0}}};
-  scene.loads = {{"p", 0.0, 3.0, false}, {"q", 4.0, 0.0, false}};
+  scene.loads = {{"p", 0.0, 3.0}, {"q", 4.0, 0.0}};
   const Scaling scaling = CharacteristicScales(scene);
   EXPECT_NEAR(scaling.force, 5.0, kRounding);
   EXPECT_NEAR(scaling.length, 5.0 / std::sqrt(25.5 / 4.0), kRounding);
@@ -278,9 +236,9 @@ TEST(CharacteristicScalesTest, WithoutBarsByHand) {
 TEST(CharacteristicScalesTest, WithoutBarsASoftPartGivesTheLength) {
   for (const double k : {1e2, 1e4, 1e6}) {
     Scene scene;
-    scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 10.0, 0.0, false, false}};
+    scene.nodes = {{"p", 0.0, 0.0}, {"q", 10.0, 0.0}};
     scene.superelements = {{{"p"}, {k, 0.0, 0.0, k}}, {{"q"}, {1.0, 0.0, 0.0, 1.0}}};
-    scene.loads = {{"q", 1.0, 0.0, false}};
+    scene.loads = {{"q", 1.0, 0.0}};
     const Scaling scaling = CharacteristicScales(scene);
     EXPECT_DOUBLE_EQ(scaling.force, 1.0);
     EXPECT_GT(scaling.length, 0.5);
@@ -292,9 +250,9 @@ TEST(CharacteristicScalesTest, WithoutBarsASoftPartGivesTheLength) {
 TEST(CharacteristicScalesTest, WithoutBarsNothingMovesFartherThanTheSceneIsLarge) {
   for (const double soft : {1e-6, 0.0}) {
     Scene scene;
-    scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 3.0, 4.0, false, false}};
+    scene.nodes = {{"p", 0.0, 0.0}, {"q", 3.0, 4.0}};
     scene.superelements = {{{"p"}, {1e4, 0.0, 0.0, 1e4}}, {{"q"}, {1.0, 0.0, 0.0, soft}}};
-    scene.loads = {{"q", 0.0, 1.0, false}};
+    scene.loads = {{"q", 0.0, 1.0}};
     const Scaling scaling = CharacteristicScales(scene);
     EXPECT_GT(scaling.length, 2.5) << soft;
     EXPECT_LT(scaling.length, 10.0) << soft;
@@ -303,9 +261,9 @@ TEST(CharacteristicScalesTest, WithoutBarsNothingMovesFartherThanTheSceneIsLarge
 
 TEST(CharacteristicScalesTest, WithoutBarsMotionsCountBesideLoads) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
-  scene.loads = {{"p", 1e-3, 0.0, false}};
+  scene.loads = {{"p", 1e-3, 0.0}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
   scene.obstacle_motions = {{"floor", 3.0, 4.0}};
   const Scaling scaling = CharacteristicScales(scene);
@@ -317,20 +275,14 @@ TEST(CharacteristicScalesTest, WithoutBarsMotionsCountBesideLoads) {
 TEST(ProgramScalesTest, LoadsFarBeyondBendingGiveTheForce) {
   for (const int segments : {1, 20, 80}) {
     TraceRequest request;
-    request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 2.0, 0.0, false, false}};
-    Beam beam;
-    beam.name = "leg";
-    beam.nodes = {"a", "b"};
-    beam.EA = 1e6;
-    beam.EI = 4.0;
-    beam.segments = segments;
-    request.scene.beams = {beam};
+    request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 2.0, 0.0}};
+    request.scene.beams = {Between("leg", "a", "b", 1e6, 4.0, segments)};
     Stage light, heavy;
-    light.loads = {{"b", 3.0, 4.0, false}};
+    light.loads = {{"b", 3.0, 4.0}};
     Load line;
     line.group = "leg";
     line.py = 10.0;
-    heavy.loads = {line, {"b", -20.0, 0.0, false}};
+    heavy.loads = {line, {"b", -20.0, 0.0}};
     heavy.target = -2.0;
     const auto scales = [&](const std::vector<Stage>& program) {
       request.program = program;
@@ -347,10 +299,10 @@ TEST(ProgramScalesTest, LoadsFarBeyondBendingGiveTheForce) {
 
 TEST(ScaleSceneTest, ByHand) {
   Scene scene;
-  scene.nodes = {{"a", 1.0, 2.0, true, true}, {"b", 4.0, 6.0, false, false}};
-  scene.bars = {{{"a", "b"}, 20.0, 0.0, {}}, {{"b", "a"}, 30.0, 8.0, {}}};
+  scene.nodes = {{"a", 1.0, 2.0, true, true}, {"b", 4.0, 6.0}};
+  scene.bars = {{{"a", "b"}, 20.0}, {{"b", "a"}, 30.0, 8.0, {}}};
   scene.superelements = {{{"b"}, {10.0, 5.0, 5.0, 20.0}}};
-  scene.loads = {{"b", 6.0, 8.0, false}, {"b", 0.0, -40.0, true}};
+  scene.loads = {{"b", 6.0, 8.0}, {"b", 0.0, -40.0, true}};
   scene.obstacles = {{"wall", ObstacleShape::kHalfPlane, 6.0, -2.0, -30.0, 40.0, 0.5}};
   // Length 2, force 20, reference load 10.
   const Scene scaled = ScaleScene(scene, {2.0, 20.0, 2.0});
@@ -374,9 +326,9 @@ TEST(ScaleSceneTest, ByHand) {
 // k = 1, a load of 1e-3 that the load factor scales.
 Scene Spring(double constant, double gap) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
-  scene.loads = {{"p", 1e-3, 0.0, false}, {"p", constant, 0.0, true}};
+  scene.loads = {{"p", 1e-3, 0.0}, {"p", constant, 0.0, true}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, -gap, 0.0, 2.0, 0.0},
                      {"touched", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
   scene.contacts = {{"p", "floor"}, {"p", "touched"}};
@@ -400,7 +352,7 @@ TEST(CharacteristicScales, WithoutBarsNoContactIsFartherThanTenThousandLengths) 
 TEST(CharacteristicScales, WithoutBarsRoundingOfATouchingContactIsNoGap) {
   Scene scene = Spring(0.0, 1e3);
   scene.obstacles.push_back({"slanted", ObstacleShape::kHalfPlane, 0.0, 0.0, 3.0, -1.0, 0.0});
-  scene.nodes.push_back({"touches", 0.1, 0.3, false, false});
+  scene.nodes.push_back({"touches", 0.1, 0.3});
   scene.contacts.push_back({"touches", "slanted"});
   ASSERT_GT(3.0 * scene.nodes.back().x - scene.nodes.back().y, 0.0);
   EXPECT_DOUBLE_EQ(CharacteristicScales(scene).length, 0.1);

@@ -16,12 +16,12 @@ namespace {
 TraceRequest SoundRequest() {
   TraceRequest request;
   Scene& scene = request.scene;
-  scene.nodes = {{"a", 0.0, 5.0, true, true}, {"b", -5.0, 0.0, false, false}, {"c", -6.0, 0.0, false, false}};
-  scene.bars = {{{"a", "b"}, 14.0, 0.0, StrainMeasure::kBiot}};
+  scene.nodes = {{"a", 0.0, 5.0, true, true}, {"b", -5.0, 0.0}, {"c", -6.0, 0.0}};
+  scene.bars = {{{"a", "b"}, 14.0}};
   scene.superelements = {{{"b", "c"},
                           {2.0, 0.0, -2.0, 0.0, 0.0, 1.0, 0.0, -1.0,  //
                            -2.0, 0.0, 2.0, 0.0, 0.0, -1.0, 0.0, 1.0}}};
-  scene.loads = {{"b", 1.0, 0.0, false}, {"b", 0.0, -1.0, true}};
+  scene.loads = {{"b", 1.0, 0.0}, {"b", 0.0, -1.0, true}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 2.0, 0.3}};
   scene.contacts = {{"b", "floor"}, {"c", "floor"}};
   request.options.stop = {{"b.x", ">", 4.95}, {"load_factor", "<", -2.0}, {"c.y", "<", -1.0}};
@@ -107,7 +107,7 @@ const BrokenRule kRules[] = {
     {[](auto& r) { r.scene.nodes[1].fixed_x = true; }, "scene.loads", "no net force", kNoLoad},
     // 0.1 + 0.2 - 0.3 is not 0 in doubles.
     {[](auto& r) {
-       r.scene.loads = {{"b", 0.1, 0.0, false}, {"b", 0.2, 0.0, false}, {"b", -0.3, 0.0, false}};
+       r.scene.loads = {{"b", 0.1, 0.0}, {"b", 0.2, 0.0}, {"b", -0.3, 0.0}};
      },
      "scene.loads", "no net force", kNoLoad},
     {[](auto& r) { r.scene.obstacles[0].name = "", r.scene.contacts.clear(); }, "scene.obstacles[0].name", "\"\"",
@@ -281,7 +281,7 @@ const SoundVariant kSoundVariants[] = {
      [](auto& r) { r.scene.nodes[2].fixed_y = true, r.scene.obstacles[0].nx = 1e-9; }},
     {"LoadsNearlyCancel",
      [](auto& r) {
-       r.scene.loads.push_back({"b", -1.0 + 1e-9, 0.0, false});
+       r.scene.loads.push_back({"b", -1.0 + 1e-9, 0.0});
      }},
     {"BranchChoices",
      [](auto& r) {

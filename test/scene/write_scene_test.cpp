@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <string>
 
 #include "support/same_request.h"
 #include "support/traced_path.h"
@@ -69,9 +68,9 @@ TEST(WriteTraceRequest, StagesThatUnload) {
 TEST(WriteTraceRequest, OnePartALineWithoutDefaults) {
   TraceRequest request;
   request.scene.name = "two";
-  request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.5, false, false}};
+  request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.5}};
   request.scene.bars = {{{"a", "b"}, 2.0, 0.0, StrainMeasure::kGreenLagrange}};
-  request.scene.loads = {{"b", 1.0, 0.0, false}};
+  request.scene.loads = {{"b", 1.0, 0.0}};
   request.options.stop = {{"b.x", ">", 2.0}};
   EXPECT_EQ(WriteTraceRequest(request),
             "scene:\n"

@@ -34,11 +34,11 @@ TraceRequest Arch(double rise, int segments, double stiffness) {
   TraceRequest request = Jumping(stiffness, 400);
   Scene& scene = request.scene;
   scene.name = "arch";
-  scene.nodes = {{"l", -1.0, 0.0, true, true}, {"c", 0.0, rise, false, false}, {"r", 1.0, 0.0, true, true}};
+  scene.nodes = {{"l", -1.0, 0.0, true, true}, {"c", 0.0, rise}, {"r", 1.0, 0.0, true, true}};
   scene.nodes.front().fixed_rotation = scene.nodes.back().fixed_rotation = true;
   scene.beams = {Between("u", "l", "c", 1e4, 1.0, segments / 2), Between("v", "c", "r", 1e4, 1.0, segments / 2)};
   for (Beam& beam : scene.beams) beam.angle = -2.0 * std::atan(rise);
-  scene.loads = {{"c", 0.0, -1.0, false}};
+  scene.loads = {{"c", 0.0, -1.0}};
   request.options.stop = {{"c.y", "<", -rise}};
   return request;
 }
@@ -172,9 +172,9 @@ TEST(JumpLandings, AreStableWhereAllOfEqualPartsBuckle) {
       const std::string foot = "b" + std::to_string(i), top = "t" + std::to_string(i);
       scene.nodes.push_back({foot, 1.0 * i, 0.0, true, true});
       scene.nodes.back().fixed_rotation = true;
-      scene.nodes.push_back({top, 1.0 * i, 1.0, false, false});
+      scene.nodes.push_back({top, 1.0 * i, 1.0});
       scene.beams.push_back(Between("c" + std::to_string(i), foot, top, 1e4, 1.0, 6));
-      scene.loads.push_back({top, 0.0, -1.0, false});
+      scene.loads.push_back({top, 0.0, -1.0});
     }
     request.options.stop = {{"load_factor", ">", 3.0}};
     const TracedPath path = TraceIncrements(request);
@@ -198,7 +198,7 @@ TEST(JumpLandings, MoveOnFromALimitPointOfTheRest) {
       scene.nodes.push_back({top, 0.0, 0.5 * i, true, false});
       for (const double side : {-1.0, 1.0}) {
         const std::string arm = (side < 0.0 ? "l" : "r") + std::to_string(i);
-        scene.nodes.push_back({arm, side, 0.5 * (i - 1), false, false});
+        scene.nodes.push_back({arm, side, 0.5 * (i - 1)});
         scene.bars.push_back({{arm, top}, 1.0});
         Superelement spring;
         spring.nodes = {below, arm};
@@ -227,10 +227,10 @@ TEST(JumpLandings, FrictionOfASlideBehindTheClosingOfAContact) {
   for (const double friction : {0.1, 0.3}) {
     Scene scene;
     scene.name = "truss_onto_plane";
-    scene.nodes = {{"up", 0.0, 1.0, true, true}, {"apex", 1.2, 0.0, false, false}, {"down", 0.0, -1.0, true, true}};
+    scene.nodes = {{"up", 0.0, 1.0, true, true}, {"apex", 1.2, 0.0}, {"down", 0.0, -1.0, true, true}};
     scene.bars = {{{"up", "apex"}, 1.0, 0.0, StrainMeasure::kGreenLagrange},
                   {{"apex", "down"}, 1.0, 0.0, StrainMeasure::kGreenLagrange}};
-    scene.loads = {{"apex", -1.0, 0.0, false}};
+    scene.loads = {{"apex", -1.0, 0.0}};
     scene.obstacles = {{"plane", ObstacleShape::kHalfPlane, -0.5, 0.0, 0.6, 0.8, friction}};
     scene.contacts = {{"apex", "plane"}};
     const Model model(scene, CharacteristicScales(scene));

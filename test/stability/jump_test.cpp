@@ -92,11 +92,10 @@ const double kLimit = 2.0 * kC * std::pow(kHeight, 3) / (3.0 * std::sqrt(3.0));
 Scene VonMises() {
   Scene scene;
   scene.name = "von_mises";
-  scene.nodes = {
-      {"left", -1.0, 0.0, true, true}, {"apex", 0.0, kHeight, false, false}, {"right", 1.0, 0.0, true, true}};
+  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, kHeight}, {"right", 1.0, 0.0, true, true}};
   scene.bars = {{{"left", "apex"}, 1.0, 0.0, StrainMeasure::kGreenLagrange},
                 {{"apex", "right"}, 1.0, 0.0, StrainMeasure::kGreenLagrange}};
-  scene.loads = {{"apex", 0.0, -1.0, false}};
+  scene.loads = {{"apex", 0.0, -1.0}};
   return scene;
 }
 
@@ -164,10 +163,10 @@ JumpResult SnapOnFloor(double friction_force, const Model& model) {
 Scene OnFloor(double friction_force) {
   Scene scene;
   scene.name = "snap_on_floor";
-  scene.nodes = {{"up", 0.0, 1.0, true, true}, {"apex", kHeight, 0.0, false, false}, {"down", 0.0, -1.0, true, true}};
+  scene.nodes = {{"up", 0.0, 1.0, true, true}, {"apex", kHeight, 0.0}, {"down", 0.0, -1.0, true, true}};
   scene.bars = {{{"up", "apex"}, 1.0, 0.0, StrainMeasure::kGreenLagrange},
                 {{"apex", "down"}, 1.0, 0.0, StrainMeasure::kGreenLagrange}};
-  scene.loads = {{"apex", -1.0, 0.0, false}, {"apex", 0.0, -2.0 * friction_force, true}};
+  scene.loads = {{"apex", -1.0, 0.0}, {"apex", 0.0, -2.0 * friction_force, true}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
   scene.contacts = {{"apex", "floor"}};
   return scene;
@@ -204,9 +203,9 @@ TEST(SnapOnAFloor, WithInertiaItStopsBeyond) {
 TEST(Jump, ReportsHowFarSomethingFliesOff) {
   Scene scene;
   scene.name = "tear";
-  scene.nodes = {{"wall", 0.0, 0.0, true, true}, {"end", 1.0, 0.0, false, false}};
+  scene.nodes = {{"wall", 0.0, 0.0, true, true}, {"end", 1.0, 0.0}};
   scene.bars = {{{"wall", "end"}, 1.0, 0.0, StrainMeasure::kLogarithmic}};
-  scene.loads = {{"end", 1.0, 0.0, false}};
+  scene.loads = {{"end", 1.0, 0.0}};
   const Model model(scene, CharacteristicScales(scene));
   PathPoint from = model.InitialPoint();
   const double e = std::exp(1.0);

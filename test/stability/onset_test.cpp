@@ -39,7 +39,7 @@ TraceRequest RequestOf(const Columns& columns) {
     if (columns.platen)
       press.support_motions.push_back({top, 0.0, -1.0});
     else
-      scene.loads.push_back({top, 0.0, -1.0, false});
+      scene.loads.push_back({top, 0.0, -1.0});
   }
   const double euler = (columns.platen ? 4.0 : 0.25) * kPi * kPi;
   if (columns.platen) {
@@ -122,9 +122,9 @@ TraceRequest SlidingFoot(double friction, double EI, int idle) {
     scene.bars.push_back({{"r", "a"}, 1.0});
   }
   scene.superelements = {{{"r"}, {2.58920966170029, 0.0, 0.0, 2.58920966170029}}};
-  scene.loads = {{"a", 0.0, -1.0, false},
+  scene.loads = {{"a", 0.0, -1.0},
                  {"r", -0.02616129496928469, -0.027015297742618898, true},
-                 {"r", -3.9316963685525654, 3.8074082842737496, false}};
+                 {"r", -3.9316963685525654, 3.8074082842737496}};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 1.0, 0.0, 0.6956611180791222, 0.7183701057205161, friction}};
   scene.contacts = {{"r", "floor"}};
   if (idle > 0) {

@@ -125,7 +125,7 @@ TEST(StabilityProblemTest, WhatADeadLoadHoldsAMachineNeedNot) {
   K(0, 0) += 0.05;
   Scene scene = LinearScene(K, 1, 1.0);
   scene.nodes[1].fixed_x = true;
-  scene.loads = {{"n1", 0.0, -1.0, false}};
+  scene.loads = {{"n1", 0.0, -1.0}};
   const Model model(scene, kUnscaled);
   StabilityProblem problem(model.structure, model.laws);
   problem.Set(Sliding(model, 1.0), {});

@@ -42,10 +42,8 @@ TraceRequest LatticeOnFloor(unsigned seed) {
       for (const auto& [right, up] : {std::pair(1, 0), std::pair(0, 1), std::pair(1, 1), std::pair(1, -1)}) {
         if (i + right > feet || j + up < 0 || j + up >= rows) continue;
         if (j == 0 && right == 0 && random.Number(0.0, 1.0) < 0.7) continue;  // such a foot stands on oblique bars
-        Bar bar;
-        bar.nodes = {NameAt(i, j), NameAt(i + right, j + up)};
-        bar.EA = std::pow(10.0, random.Number(-0.5, 0.5)) * (up != 0 && right != 0 ? slender : 1.0);
-        scene.bars.push_back(bar);
+        const double EA = std::pow(10.0, random.Number(-0.5, 0.5)) * (up != 0 && right != 0 ? slender : 1.0);
+        scene.bars.push_back({{NameAt(i, j), NameAt(i + right, j + up)}, EA});
       }
   Obstacle floor;
   floor.name = "floor";

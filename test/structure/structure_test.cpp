@@ -128,7 +128,7 @@ TEST_F(MixedStructure, EveryEntryOfThePatternIsUsedAndNoOther) {
 
 TEST_F(MixedStructure, DiagonalIsInThePatternOfANodeThatNothingHolds) {
   Scene scene = MixedScene();
-  scene.nodes.push_back({"lonely", 5.0, 5.0, false, false});
+  scene.nodes.push_back({"lonely", 5.0, 5.0});
   const Structure structure(scene);
   EXPECT_EQ(structure.TangentPattern().nonZeros(), static_cast<Eigen::Index>(CoupledComponents().size()) + 2);
 }
@@ -150,7 +150,7 @@ TEST_F(MixedStructure, EvaluationsDoNotAddToWhatWasThere) {
 TEST(Structure, EnergyOfTwoBarsInALine) {
   Scene scene;
   scene.nodes = {{"l", -1.0, 0.0, true, true}, {"m", 0.0, 0.0, true, false}, {"r", 1.0, 0.0, true, true}};
-  scene.bars = {{{"l", "m"}, 3.0, 0.0, StrainMeasure::kBiot}, {{"r", "m"}, 3.0, 0.0, StrainMeasure::kBiot}};
+  scene.bars = {{{"l", "m"}, 3.0}, {{"r", "m"}, 3.0}};
   const Structure structure(scene);
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, 0.75);  // length 1.25
   EXPECT_NEAR(structure.Energy(u), 3.0 * 0.0625, kRounding);
@@ -161,7 +161,7 @@ TEST(Structure, EnergyOfTwoBarsInALine) {
 
 TEST(Structure, RestLengthOtherThanTheDistanceStressesTheStart) {
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 2.0, 0.0, false, false}};
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 2.0, 0.0}};
   scene.bars = {{{"a", "b"}, 3.0, 1.6, StrainMeasure::kBiot}};
   const Structure stretched(scene);
   Eigen::VectorXd force(2);
@@ -175,7 +175,7 @@ TEST(Structure, RestLengthOtherThanTheDistanceStressesTheStart) {
 
 TEST(Structure, StiffnessSymmetricToRoundingIsMadeSymmetric) {
   Scene scene;
-  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.nodes = {{"p", 0.0, 0.0}};
   scene.superelements = {{{"p"}, {1.0, 0.5, 0.5 + 1e-10, 2.0}}};
   const Structure structure(scene);
   Eigen::SparseMatrix<double> tangent = structure.TangentPattern();
@@ -247,8 +247,8 @@ TEST(StructureWithRotation, ElementsSayWhichUnknownsThereAre) {
 // Held components and the start come from the start, rest lengths from the reference.
 TEST(StructureConfiguration, StartAndReferenceAreApart) {
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
-  scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}};
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0}};
+  scene.bars = {{{"a", "b"}, 1.0}};
   Configuration configuration = Configuration::Of(scene);
   configuration.start[0] = -1.0;  // the support has been moved: the bar is twice as long as it wants to be
   const Structure structure(scene, SceneIndex(scene), configuration);
@@ -260,11 +260,9 @@ TEST(StructureConfiguration, StartAndReferenceAreApart) {
 TEST(StructureConfiguration, AnElementThatIsInsideOutAtTheStart) {
   for (const bool first : {true, false}) {
     Scene scene;
-    scene.nodes = {{"a", 0.0, 0.0, true, true},
-                   {"b", 1.0, 0.0, false, false},
-                   {"c", 0.0, 1.0, true, true},
-                   {"d", 2.0, 0.0, true, true}};
-    scene.bars = {{{"b", "d"}, 3.0, 0.0, StrainMeasure::kBiot}};
+    scene.nodes = {
+        {"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0}, {"c", 0.0, 1.0, true, true}, {"d", 2.0, 0.0, true, true}};
+    scene.bars = {{{"b", "d"}, 3.0}};
     Material material;
     material.name = "m";
     material.mu = 1.0;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -146,11 +145,7 @@ TEST(Verdicts, EyesOfABodySlide) {
                    {"right", 1.05, 5.2, true, true},
                    {"hook", 0.0, 5.5, true, true}};
     for (std::size_t i = 0; i < 3; ++i) scene.nodes[i].body = "load";
-    Tendon tendon;
-    tendon.nodes = {"left", "one", "hook", "two", "right"};
-    tendon.EA = 103.0;
-    tendon.friction = friction;
-    scene.tendons = {tendon};
+    scene.tendons = {{"", {"left", "one", "hook", "two", "right"}, 103.0, 0.0, friction}};
     scene.superelements = {{{"foot"}, {0.235, 0.0, 0.0, 0.33}}};
     scene.loads = {LoadOnBody("load", 0.0, -1.0, true), LoadOnBody("load", 0.18, -0.98, false, 0.126)};
     request.options.stop = {{"load_factor", ">", 1.0}};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "branch/example_scenes.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
 #include "support/traced_path.h"
@@ -25,15 +26,7 @@ std::string Events(const TraceRequest& request, const std::vector<Increment>& in
 // A truss of half span 1 and rise 3, which sways to one side: a bifurcation.
 TraceRequest HighTruss() {
   TraceRequest request;
-  request.scene.nodes = {
-      {"left", -1.0, 0.0, true, true}, {"apex", 0.0, 3.0, false, false}, {"right", 1.0, 0.0, true, true}};
-  for (const char* foot : {"left", "right"}) {
-    Bar bar;
-    bar.nodes = {foot, "apex"};
-    bar.EA = 1.0;
-    request.scene.bars.push_back(bar);
-  }
-  request.scene.loads = {{"apex", 0.0, -1.0, false}};
+  request.scene = tall_truss::MakeScene(3.0);
   request.options.max_increments = 60;
   return request;
 }
