@@ -146,7 +146,7 @@ contact_path_add_stage(contact NAMES contact_pair_test deformable_boundary_test 
 contact_path_add_stage(equations OPTIMISED NAMES deformable_system_test fixed_mode_system_test nearest_point_test rigid_modes_test)
 contact_path_add_stage(stability LONG OPTIMISED NAMES jump_landings_test jump_test onset_test slip_stability_test
   stability_problem_test verdicts_test)
-contact_path_add_stage(mpec NAMES increment_problem_test increment_solver_test ipopt_solver_test)
+contact_path_add_stage(mpec NAMES increment_kinds_test increment_problem_test increment_solver_test ipopt_solver_test)
 contact_path_add_stage(branch LONG SHARDS 2 NAMES branch_choices_test branch_events_test branch_method_test branch_order_test
   branches_test complementarity_test crossing_test curved_surface_test leaning_blocks_test polynomial_test
   random_paths_test force_redistribution_test toys_test)
@@ -206,21 +206,29 @@ function(contact_path_add_python_test name file)
   endif()
 endfunction()
 
-contact_path_add_python_test(cli_test test/cli/cli_test.py DEPENDS contact_path_trace
-  VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
+foreach(test cli_test cli_input_test)
+  contact_path_add_python_test(${test} test/cli/${test}.py DEPENDS contact_path_trace
+    VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
+endforeach()
 contact_path_add_python_test(no_blas_test test/cli/no_blas_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_TEST_DATA=${CMAKE_CURRENT_SOURCE_DIR}/test/data)
 contact_path_add_python_test(determinism_test test/cli/determinism_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
-contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_path_trace
-  VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
+foreach(test plot_test plot_shapes_test)
+  contact_path_add_python_test(${test} test/cli/${test}.py DEPENDS contact_path_trace
+    VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
+endforeach()
 contact_path_add_python_test(expand_test test/cli/expand_test.py DEPENDS contact_path_trace contact_path_expand contact_path_response
   VARIABLES CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-contact_path_add_python_test(mesh_test test/cli/mesh_test.py
-  VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
-contact_path_add_python_test(study_test test/cli/study_test.py LONG SHARDS 2 DEPENDS contact_path_trace contact_path_study_server
-  VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
-    CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
+foreach(test mesh_test mesh_by_hand_test)
+  contact_path_add_python_test(${test} test/cli/${test}.py
+    VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
+endforeach()
+foreach(test study_test study_input_test)
+  contact_path_add_python_test(${test} test/cli/${test}.py LONG SHARDS 2 DEPENDS contact_path_trace contact_path_study_server
+    VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
+      CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
+endforeach()
 contact_path_add_python_test(perturb_test test/stress/perturb_test.py LONG DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 foreach(test answers_test imports_test markers_test signatures_test scene_test path_test page_test page_study_test surface_curves_test

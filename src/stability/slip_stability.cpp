@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <algorithm>
 #include <utility>
 
 #include "contact_path/linear/generic_vector.h"
@@ -19,6 +18,15 @@ std::vector<int> Members(Set set) {
   for (int i = 0; set >> i != 0; ++i)
     if ((set >> i & 1U) != 0) members.push_back(i);
   return members;
+}
+
+Eigen::MatrixXd Submatrix(const Eigen::MatrixXd& matrix, const std::vector<int>& rows,
+                          const std::vector<int>& columns) {
+  Eigen::MatrixXd part(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index i = 0; i < part.rows(); ++i)
+    for (Eigen::Index j = 0; j < part.cols(); ++j)
+      part(i, j) = matrix(rows[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+  return part;
 }
 
 // Whether a matrix is positive definite by its symmetric part: then no motion among these ports grows.
@@ -46,7 +54,7 @@ bool IsStrictlyCopositive(const Eigen::MatrixXd& F) {
   if (F.rows() > kMostSlips) return false;
   for (Set set = 1; set <= All(F); ++set) {
     const std::vector<int> members = Members(set);
-    const Eigen::MatrixXd part = lowered(members, members);
+    const Eigen::MatrixXd part = Submatrix(lowered, members, members);
     if (IsDefinite(part)) continue;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part);
     for (Eigen::Index k = 0; k < solver.eigenvalues().size() && solver.eigenvalues()[k] <= 0.0; ++k)
@@ -63,8 +71,8 @@ std::optional<int> ComplementarityDegree(const Eigen::MatrixXd& H) {
   int degree = 1;  // of no slip
   for (Set set = 1; set <= All(H); ++set) {
     const std::vector<int> members = Members(set), others = Members(All(H) & ~set);
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(H(members, members));
-    const Eigen::VectorXd part = q(members);
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(Submatrix(H, members, members));
+    const Eigen::VectorXd part = Submatrix(q, members, {0});
     const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
     if (!(pivots.minCoeff() > tolerances::kDependent * size)) {
       // Next to singular: harmless where no solution is near, since the null vector has both signs.
@@ -73,7 +81,7 @@ std::optional<int> ComplementarityDegree(const Eigen::MatrixXd& H) {
     }
     const Eigen::VectorXd z = lu.solve(-part);
     if ((z.array() < 0.0).any()) continue;
-    const Eigen::VectorXd w = Eigen::MatrixXd(H(others, members)) * z + q(others);
+    const Eigen::VectorXd w = Submatrix(H, others, members) * z + Submatrix(q, others, {0});
     if ((w.array() < 0.0).any()) continue;
     degree += lu.determinant() > 0.0 ? 1 : -1;
   }
@@ -86,15 +94,15 @@ std::vector<GrowingSlip> GrowingSlips(const Eigen::MatrixXd& H) {
   const double level = tolerances::kDependent * H.cwiseAbs().maxCoeff();
   for (Set set = 1; set <= All(H); ++set) {
     const std::vector<int> members = Members(set), others = Members(All(H) & ~set);
-    const Eigen::MatrixXd among = H(members, members);
+    const Eigen::MatrixXd among = Submatrix(H, members, members);
     if (IsDefinite(among - level * Eigen::MatrixXd::Identity(among.rows(), among.cols()))) continue;
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(among);
     for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
       if (solver.eigenvalues()[k].real() > level || solver.eigenvalues()[k].imag() != 0.0) continue;
       const std::optional<Eigen::VectorXd> part = AsPositive(solver.eigenvectors().col(k).real());
-      if (!part || ((Eigen::MatrixXd(H(others, members)) * *part).array() < -level).any()) continue;
+      if (!part || ((Submatrix(H, others, members) * *part).array() < -level).any()) continue;
       GrowingSlip slip{-solver.eigenvalues()[k].real(), Eigen::VectorXd::Zero(H.rows())};
-      slip.z(members) = *part;
+      for (std::size_t i = 0; i < members.size(); ++i) slip.z[members[i]] = (*part)[static_cast<Eigen::Index>(i)];
       growing.push_back(std::move(slip));
     }
   }
@@ -103,11 +111,14 @@ std::vector<GrowingSlip> GrowingSlips(const Eigen::MatrixXd& H) {
 
 std::optional<int> CountGrowing(const Eigen::MatrixXd& H, const std::vector<GrowingSlip>& growing) {
   std::vector<int> members;
-  for (int i = 0; i < H.rows(); ++i)
-    if (std::any_of(growing.begin(), growing.end(), [i](const GrowingSlip& slip) { return slip.z[i] > 0.0; }))
-      members.push_back(i);
+  for (Eigen::Index i = 0; i < H.rows(); ++i)
+    for (const GrowingSlip& slip : growing)
+      if (slip.z[i] > 0.0) {
+        members.push_back(static_cast<int>(i));
+        break;
+      }
   if (members.empty()) return 0;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(H(members, members), false);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(Submatrix(H, members, members), false);
   const double level = tolerances::kDependent * H.cwiseAbs().maxCoeff();
   int count = 0;
   for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {

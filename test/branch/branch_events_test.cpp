@@ -160,7 +160,8 @@ TraceRequest TwoFeet(double friction) {
   return request;
 }
 
-// Both feet stick up to the load at which one of them would slide, if the other one were active; then both slide.
+// Both feet stick up to the load at which one of them would slide, if the other one were active; then both slide. Each
+// may slide alone, which breaks the symmetry: two branches that are mirrors.
 TEST(RestingStructure, SlidesApartOnBothFeet) {
   const TracedPath path = TraceIncrements(TwoFeet(rough_truss::kFriction));
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
@@ -186,6 +187,12 @@ TEST(RestingStructure, SlidesApartOnBothFeet) {
   EXPECT_EQ(events[0].kind, IncrementKind::kCornerLimit);
   EXPECT_NEAR(events[0].load_factor, rough_truss::CornerLoad(), 1e-14);
   EXPECT_NEAR(path.increments.back().dissipation, rough_truss::TotalDissipation(), 1e-12);
+  const std::vector<BranchRecord>& branches = events[0].event.branches;
+  ASSERT_EQ(branches.size(), 3U);
+  EXPECT_EQ(branches[0].states, (std::vector<ContactState>{ContactState::kSlipPlus, ContactState::kSlipMinus}));
+  EXPECT_EQ(events[0].event.taken, 1);
+  EXPECT_NEAR(branches[1].dissipation_rate, branches[2].dissipation_rate, 1e-12);
+  EXPECT_NEAR(branches[1].load_rate, branches[2].load_rate, 1e-12);
 }
 
 // On too smooth a floor it gives way at once: there is no equilibrium, not even under the smallest load.

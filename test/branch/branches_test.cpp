@@ -401,27 +401,7 @@ TEST(FindBranches, ManyCoupledContacts) {
   EXPECT_EQ(missed, 0);
 }
 
-// ----- symmetry, rigid modes -----
-
-// Two feet on a rough floor, one pressed as the other: each may slide alone, which breaks the symmetry, or both.
-TEST(FindBranches, BranchesThatBreakASymmetryAreMirrors) {
-  const TracedPath path = [] {
-    TraceRequest request = ReadExample("rough_truss");
-    request.scene.nodes[0] = {"left", -1.0, 0.0};
-    request.scene.contacts.push_back({"left", "floor"});
-    return TraceIncrements(request);
-  }();
-  const auto corner = std::find_if(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
-    return increment.kind == IncrementKind::kCornerLimit;
-  });
-  ASSERT_NE(corner, path.increments.end());
-  EXPECT_NEAR(corner->load_factor, rough_truss::CornerLoad(), 1e-14);
-  ASSERT_EQ(corner->event.branches.size(), 3U);
-  EXPECT_EQ(corner->event.branches[0].states, (ContactStates{kSlipPlus, kSlipMinus}));
-  EXPECT_EQ(corner->event.taken, 1);
-  EXPECT_NEAR(corner->event.branches[1].dissipation_rate, corner->event.branches[2].dissipation_rate, 1e-12);
-  EXPECT_NEAR(corner->event.branches[1].load_rate, corner->event.branches[2].load_rate, 1e-12);
-}
+// ----- rigid modes -----
 
 // Two bars in a row, hinged and free at the end.
 TEST(FindBranches, RigidModes) {

@@ -19,8 +19,7 @@
 namespace contact_path::residuals_test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Residuals of exact states that were rounded to double: a unit in the last place of terms up to 1.
 constexpr double kRounding = 1e-15;
@@ -170,8 +169,7 @@ TEST_F(SlidingBarResiduals, OpenContactMovesFreely) {
 TEST_F(SlidingBarResiduals, SupportsTakeAnyForce) {
   Scene held = scene_;
   held.nodes[1].fixed_y = true;
-  now_.rn[0] = 0.0;
-  now_.rt[0] = 0.0;
+  now_.rn = now_.rt = {0.0};
   now_.load_factor = static_cast<double>(-x_ * Push(x_, 0.0L));
   EXPECT_LE(ResidualCheck(held).Check(before_, now_).equilibrium, 1e-16);
   EXPECT_NEAR(Check().equilibrium, static_cast<double>(kHeight * Push(x_, 0.0L)) / force_, kRounding);
@@ -389,8 +387,7 @@ void ExpectForcesAreTheGradient(Scene scene, const std::vector<double>& position
     Scene released = scene;
     (is_x ? released.nodes[node].fixed_x : released.nodes[node].fixed_y) = false;
     released.loads = {{released.nodes[node].name, is_x ? 1.0 : 0.0, is_x ? 0.0 : 1.0, false}};
-    std::vector<double> forward = positions;
-    std::vector<double> backward = positions;
+    std::vector<double> forward = positions, backward = positions;
     forward[component] += kDifference;
     backward[component] -= kDifference;
     CheckedState state;

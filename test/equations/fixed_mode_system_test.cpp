@@ -39,17 +39,15 @@ class MixedSystem : public testing::Test {
     point.forces = ByPort(rn, random_.Vector(6, -1.0, 1.0));
     return point;
   }
-  void ExpectJacobian(const std::string& what) {
-    PathPoint point = RandomPoint();
-    const Eigen::VectorXd x = system_.Pack(point);
-    const auto residual = [&](const Eigen::VectorXd& at) {
-      Eigen::VectorXd value;
-      system_.Residual(at, &value);
-      return value;
-    };
-    EXPECT_EQ(residual(x).size(), system_.NumEquations()) << what;
-    EXPECT_EQ(x.size(), system_.NumUnknowns()) << what;
-    EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system_.TransposedJacobian(x)).transpose())) << what;
+  void ExpectDerivatives() {
+    const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
+    EXPECT_EQ(x.size(), system_.NumUnknowns());
+    ExpectDerivativesMeetDifferences(&system_, x, dx);
+    // The second derivative leaves no trace in the next Jacobian.
+    const Eigen::MatrixXd jacobian = system_.TransposedJacobian(x);
+    EXPECT_EQ(jacobian.cols(), system_.NumEquations());
+    system_.SecondDerivative(x, dx);
+    EXPECT_EQ(Eigen::MatrixXd(system_.TransposedJacobian(x)), jacobian);
   }
 
   const Scene scene_ = MixedScene();
@@ -82,7 +80,7 @@ TEST_F(MixedSystem, CountsUnknownsAndEquations) {
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
 }
 
-TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
+TEST_F(MixedSystem, DerivativesMeetDifferencesInEveryCombinationOfStates) {
   // All states of each contact with the others random: 18 states, and pins on all inequalities they have.
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     for (const State state : StatesOf(*contacts_[i])) {
@@ -93,13 +91,13 @@ TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
             possible[static_cast<std::size_t>(random_.Number(0.0, 1.0) * static_cast<double>(possible.size()))]);
       }
       states[i] = state;
-      const std::string what = "contact " + std::to_string(i) + " " + std::string(ToString(state));
+      SCOPED_TRACE("contact " + std::to_string(i) + " " + std::string(ToString(state)));
       system_.SetModes(ModesOf(states), ByPort(reference_));
-      ExpectJacobian(what);
+      ExpectDerivatives();
       system_.SetActive(system_.OfModes().All());
-      ExpectJacobian(what + ", all active");
+      ExpectDerivatives();
       system_.FixLoadFactor(0.3);
-      ExpectJacobian(what + ", all and the load factor active");
+      ExpectDerivatives();
     }
   }
 }
@@ -118,15 +116,12 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
   EXPECT_EQ(system.NumUnknowns(), 8 + 1 + 5 + 2 + 2);
   EXPECT_EQ(system.NumEquations(), 8 + 5 + 2 + 2);
   const Eigen::VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 1.0);
-  const auto residual = [&](const Eigen::VectorXd& at) {
-    Eigen::VectorXd value;
-    system.Residual(at, &value);
-    return value;
-  };
-  EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
+  const Eigen::VectorXd along = random.Vector(system.NumUnknowns(), -1.0, 1.0);
+  ExpectDerivativesMeetDifferences(&system, x, along);
   for (const Limit& limit : system.OfModes().All()) {
     const auto value = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, system.Value(limit, at)); };
     EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
+    EXPECT_NEAR(system.OfModes().Rate(limit, x, along), system.Gradient(limit, x).dot(along), kRounding);
   }
   // The power of supports and obstacles: that of the reactions on the nodes less what friction takes.
   const PathPoint point = system.Unpack(x);
@@ -286,37 +281,6 @@ TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
   EXPECT_NEAR(residual[residual.size() - 1], x[structure_.NumDofs()] - 0.25, kRounding);
 }
 
-TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
-  system_.SetModes(
-      ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}),
-      ByPort(reference_));
-  const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
-  for (const Limit& limit : system_.OfModes().All()) {
-    const auto value = [&](const Eigen::VectorXd& at) {
-      return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
-    };
-    EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit, x).transpose()));
-    EXPECT_NEAR(system_.OfModes().Rate(limit, x, dx), system_.Gradient(limit, x).dot(dx), kRounding);
-  }
-}
-
-TEST_F(MixedSystem, SecondDerivativeMeetsDifferences) {
-  for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus}) {
-    system_.SetModes(ModesOf({state, State::kClosed, State::kStick, state, state, State::kOpen}), ByPort(reference_));
-    system_.FixLoadFactor(0.2);
-    const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
-    const auto rate = [&](const Eigen::VectorXd& h) {
-      return Eigen::VectorXd(system_.TransposedJacobian(x + h[0] * dx).transpose() * dx);
-    };
-    const Eigen::VectorXd second = system_.SecondDerivative(x, dx);
-    EXPECT_TRUE(IsJacobian(rate, Eigen::VectorXd::Zero(1), second));
-    // It leaves no trace in the next Jacobian.
-    const Eigen::MatrixXd jacobian = system_.TransposedJacobian(x);
-    system_.SecondDerivative(x, dx);
-    EXPECT_EQ(Eigen::MatrixXd(system_.TransposedJacobian(x)), jacobian);
-  }
-}
-
 TEST_F(MixedSystem, SingularElementGivesWhatIsNotFinite) {
   PathPoint point = RandomPoint();
   point.u.head<2>() = Eigen::Vector2d(0.0, 0.1);  // b on a
@@ -328,17 +292,17 @@ TEST_F(MixedSystem, SingularElementGivesWhatIsNotFinite) {
 // The sliding bar of Kanno & Martins 2005, Example 4.1, against its closed form.
 class SlidingBarSystem : public testing::Test {
  protected:
-  PathPoint ClosedForm(double x, double sign) const {
+  PathPoint ClosedForm(double x) const {
     PathPoint point;
     point.u = Eigen::Vector2d(x, 0.0);
     point.s = sliding_bar::LoadFactor(x);
-    point.forces = sliding_bar::NormalReaction(x) * Eigen::Vector2d(1.0, -sign * sliding_bar::kFriction);
+    point.forces = sliding_bar::NormalReaction(x) * Eigen::Vector2d(1.0, -sliding_bar::kFriction);
     return point;
   }
   double LargestResidual(State state, double x, double reference) {
     system_.SetModes(ModesOf({state}), Eigen::Vector2d(0.0, reference));
     Eigen::VectorXd residual;
-    system_.Residual(system_.Pack(ClosedForm(x, 1.0)), &residual);
+    system_.Residual(system_.Pack(ClosedForm(x)), &residual);
     return residual.lpNorm<Eigen::Infinity>();
   }
 

@@ -1,12 +1,10 @@
-// Answers of whole paths against closed forms: a clamped frame, a cylinder on a plane, a snap hook; and against each
-// other, on all example scenes.
+// Answers of whole paths against closed forms: a clamped frame, a cylinder on a plane, a snap hook.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +14,7 @@
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scene_index.h"
 #include "support/beams.h"
+#include "support/solid_grid.h"
 #include "support/traced_path.h"
 
 namespace contact_path::closed_forms_test {
@@ -52,10 +51,7 @@ TraceRequest ClampedPortal(const std::vector<double>& load_factors) {
                  {"d", kSpan, 0.0, true, true, true}};
   scene.beams = {Between("left", "a", "b", kEA, kEI, kSegments), Between("beam", "b", "c", kEA, kEI, kSegments),
                  Between("right", "c", "d", kEA, kEI, kSegments)};
-  Samples samples;
-  samples.quantity = "load_factor";
-  samples.values = load_factors;
-  request.options.at = {samples};
+  request.options.at = {{"load_factor", load_factors}};
   request.options.stop = {{"load_factor", ">", load_factors.front()}};
   return request;
 }
@@ -176,17 +172,10 @@ Body AddBody(const std::string& name, double per_width, int nodes_per_element, b
 // Half of a cylinder that half of its line load presses down.
 Body AddCylinder(double per_width, int nodes_per_element, TraceRequest& request) {
   Scene& scene = request.scene;
-  scene.materials.resize(1);
-  scene.materials[0].name = "elastic";
-  scene.materials[0].model = MaterialModel::kLinear;
-  scene.materials[0].E = kE;
-  scene.materials[0].nu = kNu;
+  scene.materials = {ElasticMaterial("elastic", kE, kNu, MaterialModel::kLinear)};
   Body cylinder = AddBody(
       "cylinder", per_width, nodes_per_element, false, [](double x) { return 0.5 * x * x / kRadius; }, scene);
-  BoundarySurface top;
-  top.name = "top";
-  top.nodes = cylinder.far;
-  scene.surfaces.push_back(top);
+  scene.surfaces.push_back({"top", cylinder.far});
   Load load;
   load.surface = "top";
   load.py = -0.5 / kFar;
@@ -247,10 +236,7 @@ PressureCurve OnABlock(double per_width, double per_width_of_block, int nodes_pe
   const Body cylinder = AddCylinder(per_width, nodes_per_element, request);
   const Body block = AddBody(
       "block", per_width_of_block, nodes_per_element, true, [](double) { return 0.0; }, request.scene);
-  BoundarySurface surface;
-  surface.name = "block_top";
-  surface.nodes = block.touching;
-  request.scene.surfaces.push_back(surface);
+  request.scene.surfaces.push_back({"block_top", block.touching});
   AddCandidates(cylinder, "", "block_top", request.scene);
   const double line_load = LineLoad(0.5 * kE / (1.0 - kNu * kNu));
   request.options.stop = {{"load_factor", ">", line_load}};
@@ -345,12 +331,7 @@ TraceRequest SnapHook(bool held, const std::vector<double>& heights) {
     request.scene.superelements.clear();
     request.scene.nodes[NodeNumber(request.scene, "root")].fixed_x = true;
   }
-  if (!heights.empty()) {
-    Samples samples;
-    samples.quantity = "nose.y";
-    samples.values = heights;
-    request.options.at = {samples};
-  }
+  if (!heights.empty()) request.options.at = {{"nose.y", heights}};
   return request;
 }
 
@@ -411,73 +392,6 @@ TEST(ClosedForms, ForceOfInsertionOfASnapHook) {
   EXPECT_LT(errors[0], 2e-3);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(errors[i], 0.4 * errors[i + 1]);  // of four times the rise
 }
-
-// ----- all example scenes -----
-
-constexpr std::array<const char*, 7> kWithPressures = {"crushed_ring", "fin_ray",     "hertz",     "peg_in_hole",
-                                                       "ring_on_ring", "rubber_foot", "two_blocks"};
-
-TraceRequest WithPressures(const std::string& scene) {
-  TraceRequest request = ReadExample(scene);
-  request.options.record = {"pressures"};
-  return request;
-}
-
-// Where candidates stand for a length of a boundary.
-TEST(Pressures, AreOfTheseScenes) {
-  for (const auto& file : std::filesystem::directory_iterator(CONTACT_PATH_SCENES)) {
-    if (file.path().extension() != ".yaml") continue;
-    const std::string scene = file.path().stem().string();
-    TraceRequest request = WithPressures(scene);
-    request.options.max_increments = 1;
-    const std::vector<ContactPressure> pressures = TraceIncrements(request).increments.front().pressures;
-    const bool some =
-        std::any_of(pressures.begin(), pressures.end(), [](const ContactPressure& of) { return of.length > 0.0; });
-    EXPECT_EQ(some, std::count(kWithPressures.begin(), kWithPressures.end(), scene) == 1) << scene;
-  }
-}
-
-class PressuresOfScene : public testing::TestWithParam<const char*> {};
-
-// Pressures times lengths are the reactions, of a level floor its resultant; the widths are the lengths of what
-// touches.
-TEST_P(PressuresOfScene, SumUpToTheReactions) {
-  const TracedPath path = TraceIncrements(WithPressures(GetParam()));
-  const ExpandedRequest expanded(path.request);
-  const Scene& scene = expanded.Get().scene;
-  const std::vector<TouchedBoundary> boundaries = TouchedBoundaries(scene);
-  const std::vector<std::size_t> boundary_of = BoundaryOfContacts(scene, boundaries);
-  const auto is_level = [&](const TouchedBoundary& of) {
-    return !of.is_surface && scene.obstacles[of.place].shape == ObstacleShape::kHalfPlane &&
-           scene.obstacles[of.place].nx == 0.0;
-  };
-  double off = 0.0, off_width = 0.0, largest = 0.0, longest = 0.0;
-  for (const Increment& increment : path.increments) {
-    std::vector<double> widths(boundaries.size()), forces(boundaries.size()), reactions(boundaries.size());
-    for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
-      const ContactPressure& of = increment.pressures[i];
-      if (of.length == 0.0) continue;  // a node alone
-      forces[boundary_of[i]] += of.pressure * of.length;
-      reactions[boundary_of[i]] += increment.contacts[i].rn;
-      if (increment.contacts[i].state != ContactState::kOpen) widths[boundary_of[i]] += of.length;
-    }
-    ASSERT_EQ(increment.widths.size(), widths.size());
-    for (std::size_t i = 0; i < boundaries.size(); ++i) {
-      off = std::max(off, std::abs(forces[i] - reactions[i]));
-      largest = std::max(largest, reactions[i]);
-      off_width = std::max(off_width, std::abs(increment.widths[i] - widths[i]));
-      longest = std::max(longest, widths[i]);
-      if (is_level(boundaries[i])) off = std::max(off, std::abs(forces[i] - increment.boundaries[i].ry));
-    }
-  }
-  EXPECT_GT(largest, 0.0);
-  EXPECT_GT(longest, 0.0);
-  EXPECT_LE(off, 1e-12 * largest);
-  EXPECT_LE(off_width, 1e-12 * longest);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, PressuresOfScene, testing::ValuesIn(kWithPressures),
-                         [](const auto& of) { return std::string(of.param); });
 
 }  // namespace
 }  // namespace contact_path::closed_forms_test

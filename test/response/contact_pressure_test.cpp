@@ -3,61 +3,46 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scene_index.h"
+#include "support/solid_grid.h"
 #include "support/traced_path.h"
 
 namespace contact_path::contact_pressure_test {
 namespace {
 
-// A block of columns x rows elements that a uniform traction presses onto a floor without friction.
-TraceRequest PressedBlock(int columns, int rows, int nodes_per_element) {
+// A block of columns x 2 elements, 2 wide and 1 high, that a uniform traction presses onto a floor without friction.
+TraceRequest BlockOnFloor(int columns, int nodes_per_element) {
   TraceRequest request;
   Scene& scene = request.scene;
-  Material material;
-  material.name = "rubber";
-  material.E = 10.0;
-  material.nu = 0.3;
-  scene.materials = {material};
-  const int steps = nodes_per_element == 8 ? 2 : 1;
-  const auto name = [](int i, int j) { return "n" + std::to_string(i) + "_" + std::to_string(j); };
-  for (int j = 0; j <= steps * rows; ++j)
-    for (int i = 0; i <= steps * columns; ++i)
-      if (steps == 1 || i % 2 == 0 || j % 2 == 0)
-        scene.nodes.push_back({name(i, j), 2.0 * i / (steps * columns), 1.0 * j / (steps * rows), i == 0});
+  scene.materials = {ElasticMaterial("rubber", 10.0, 0.3)};
   Solid solid;
-  solid.name = "block";
   solid.material = "rubber";
   solid.nodes_per_element = nodes_per_element;
-  for (int j = 0; j < steps * rows; j += steps)
-    for (int i = 0; i < steps * columns; i += steps) {
-      for (const auto& [di, dj] : {std::pair(0, 0), std::pair(steps, 0), std::pair(steps, steps), std::pair(0, steps)})
-        solid.nodes.push_back(name(i + di, j + dj));
-      if (steps == 2)
-        for (const auto& [di, dj] : {std::pair(1, 0), std::pair(2, 1), std::pair(1, 2), std::pair(0, 1)})
-          solid.nodes.push_back(name(i + di, j + dj));
-    }
-  scene.solids = {solid};
-  BoundarySurface top;
-  top.name = "top";
-  for (int i = 0; i <= steps * columns; ++i) top.nodes.push_back(name(i, steps * rows));
+  AddGrid(
+      &scene, columns, 2, [](double x, double y) { return Eigen::Vector2d(2.0 * x, y); }, solid);
+  for (Node& node : scene.nodes) node.fixed_x = node.x == 0.0;
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
+  BoundarySurface top{"top"};
+  for (int i = 0; i <= 2 * columns; ++i) {
+    if (!HasGridNode(scene, i, 0)) continue;
+    top.nodes.push_back(GridNode(&scene, i, 4).name);
+    scene.contacts.push_back({GridNode(&scene, i, 0).name, "floor"});
+  }
   scene.surfaces = {top};
   Load load;
   load.surface = "top";
   load.py = -1.0;
   scene.loads = {load};
-  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
-  for (int i = 0; i <= steps * columns; ++i) {
-    ContactCandidate contact;
-    contact.node = name(i, 0);
-    contact.obstacle = "floor";
-    scene.contacts.push_back(contact);
-  }
   request.options.record = {"pressures"};
   request.options.stop = {{"load_factor", ">", 1.0}};
   return request;
@@ -69,7 +54,7 @@ TEST(ContactPressure, OfAUniformTractionIsUniform) {
   for (const int nodes : {4, 8})
     for (const int columns : {3, 8}) {
       SCOPED_TRACE(std::to_string(nodes) + " nodes, " + std::to_string(columns) + " columns");
-      const TracedPath path = TraceIncrements(PressedBlock(columns, 2, nodes));
+      const TracedPath path = TraceIncrements(BlockOnFloor(columns, nodes));
       ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
       const Increment& last = path.increments.back();
       double force = 0.0, length = 0.0, smallest = 1e300, largest = 0.0;
@@ -91,9 +76,9 @@ TEST(ContactPressure, OfAUniformTractionIsUniform) {
 }
 
 TEST(ContactPressure, StopsAPath) {
-  TraceRequest request = PressedBlock(4, 2, 4);
+  TraceRequest request = BlockOnFloor(4, 4);
   request.options.record.clear();
-  request.options.stop = {{"n2_0@floor.pressure", ">", 0.5}, {"load_factor", ">", 1.0}};
+  request.options.stop = {{"4_0@floor.pressure", ">", 0.5}, {"load_factor", ">", 1.0}};
   const TracedPath path = TraceIncrements(request);
   EXPECT_NEAR(path.increments.back().pressures[2].pressure, 0.5, 1e-12);
   request.options.stop = {{"floor.width", ">", 2.05}, {"load_factor", ">", 1.0}};
@@ -113,6 +98,73 @@ TEST(ContactPressure, OfANodeAloneIsZero) {
     EXPECT_EQ(increment.widths[0], 0.0);
   }
 }
+
+// ----- all example scenes -----
+
+constexpr std::array<const char*, 7> kWithPressures = {"crushed_ring", "fin_ray",     "hertz",     "peg_in_hole",
+                                                       "ring_on_ring", "rubber_foot", "two_blocks"};
+
+TraceRequest WithPressures(const std::string& scene) {
+  TraceRequest request = ReadExample(scene);
+  request.options.record = {"pressures"};
+  return request;
+}
+
+// Where candidates stand for a length of a boundary.
+TEST(Pressures, AreOfTheseScenes) {
+  for (const auto& file : std::filesystem::directory_iterator(CONTACT_PATH_SCENES)) {
+    if (file.path().extension() != ".yaml") continue;
+    const std::string scene = file.path().stem().string();
+    TraceRequest request = WithPressures(scene);
+    request.options.max_increments = 1;
+    const std::vector<ContactPressure> pressures = TraceIncrements(request).increments.front().pressures;
+    const bool some =
+        std::any_of(pressures.begin(), pressures.end(), [](const ContactPressure& of) { return of.length > 0.0; });
+    EXPECT_EQ(some, std::count(kWithPressures.begin(), kWithPressures.end(), scene) == 1) << scene;
+  }
+}
+
+class PressuresOfScene : public testing::TestWithParam<const char*> {};
+
+// Pressures times lengths are the reactions, of a level floor its resultant; the widths are the lengths of what
+// touches.
+TEST_P(PressuresOfScene, SumUpToTheReactions) {
+  const TracedPath path = TraceIncrements(WithPressures(GetParam()));
+  const ExpandedRequest expanded(path.request);
+  const Scene& scene = expanded.Get().scene;
+  const std::vector<TouchedBoundary> boundaries = TouchedBoundaries(scene);
+  const std::vector<std::size_t> boundary_of = BoundaryOfContacts(scene, boundaries);
+  const auto is_level = [&](const TouchedBoundary& of) {
+    return !of.is_surface && scene.obstacles[of.place].shape == ObstacleShape::kHalfPlane &&
+           scene.obstacles[of.place].nx == 0.0;
+  };
+  double off = 0.0, off_width = 0.0, largest = 0.0, longest = 0.0;
+  for (const Increment& increment : path.increments) {
+    std::vector<double> widths(boundaries.size()), forces(boundaries.size()), reactions(boundaries.size());
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+      const ContactPressure& of = increment.pressures[i];
+      if (of.length == 0.0) continue;  // a node alone
+      forces[boundary_of[i]] += of.pressure * of.length;
+      reactions[boundary_of[i]] += increment.contacts[i].rn;
+      if (increment.contacts[i].state != ContactState::kOpen) widths[boundary_of[i]] += of.length;
+    }
+    ASSERT_EQ(increment.widths.size(), widths.size());
+    for (std::size_t i = 0; i < boundaries.size(); ++i) {
+      off = std::max(off, std::abs(forces[i] - reactions[i]));
+      largest = std::max(largest, reactions[i]);
+      off_width = std::max(off_width, std::abs(increment.widths[i] - widths[i]));
+      longest = std::max(longest, widths[i]);
+      if (is_level(boundaries[i])) off = std::max(off, std::abs(forces[i] - increment.boundaries[i].ry));
+    }
+  }
+  EXPECT_GT(largest, 0.0);
+  EXPECT_GT(longest, 0.0);
+  EXPECT_LE(off, 1e-12 * largest);
+  EXPECT_LE(off_width, 1e-12 * longest);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PressuresOfScene, testing::ValuesIn(kWithPressures),
+                         [](const auto& of) { return std::string(of.param); });
 
 }  // namespace
 }  // namespace contact_path::contact_pressure_test

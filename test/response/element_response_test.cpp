@@ -16,6 +16,7 @@
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scene_index.h"
 #include "response/cantilever.h"
+#include "support/solid_grid.h"
 #include "support/traced_path.h"
 
 namespace contact_path::element_response_test {
@@ -95,11 +96,7 @@ class StressPatch : public testing::TestWithParam<Law> {
   TraceRequest Request() const {
     TraceRequest request;
     Scene& scene = request.scene;
-    Material material;
-    material.name = "rubber";
-    material.model = GetParam().model;
-    material.E = kE;
-    material.nu = kNu;
+    Material material = ElasticMaterial("rubber", kE, kNu, GetParam().model);
     if (material.model == MaterialModel::kCiarletGeymonat) material.a = 0.25 * kE / (1.0 + kNu);
     scene.materials = {material};
     Solid solid;

@@ -7,18 +7,14 @@
 #include <string>
 
 #include "contact_path/scene/read_scene.h"
+#include "support/traced_path.h"
 
 namespace contact_path::scenes_test {
 namespace {
 
-// The scenes of this package lie beside the tests.
-std::filesystem::path ScenesDirectory() {
-  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "scenes";
-}
-
 TEST(ScenesTest, AreSoundAndNamedAsTheirFiles) {
   std::size_t scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(ScenesDirectory())) {
+  for (const auto& entry : std::filesystem::directory_iterator(CONTACT_PATH_SCENES)) {
     if (entry.path().extension() != ".yaml") continue;
     ++scenes;
     EXPECT_NO_THROW({
@@ -33,7 +29,7 @@ TEST(ScenesTest, AreSoundAndNamedAsTheirFiles) {
 }
 
 TEST(ScenesTest, ArchIsItsOwnMirrorImage) {
-  const Scene scene = ReadTraceRequestFile((ScenesDirectory() / "arch19.yaml").string()).scene;
+  const Scene scene = ReadExample("arch19").scene;
   ASSERT_EQ(scene.nodes.size(), 11U);
   ASSERT_EQ(scene.bars.size(), 19U);
   const double degree = std::acos(-1.0) / 180.0;
