@@ -7,7 +7,8 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from enumerate_branches import Problem, branches_from
+from enumerate_branches import branches_from
+from static_problem import Problem
 
 
 def row(load_factor, **positions):

@@ -35,7 +35,8 @@ import time
 import numpy as np
 import yaml
 
-from enumerate_branches import Problem, Undecided, branches_from
+from enumerate_branches import Undecided, branches_from
+from static_problem import Problem
 
 MAX_INCREMENTS = 300
 LONGEST = 120         # seconds for one path
