@@ -16,11 +16,7 @@ Scene Triangle(double friction) {
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0}, {"b", 1.0, 0.0}, {"c", 0.4, 0.9}};
   scene.bars = {{{"a", "b"}, 1e6}, {{"b", "c"}, 1.0}, {{"c", "a"}, 20.0}};
-  Obstacle floor;
-  floor.name = "floor";
-  floor.ny = 1.0;
-  floor.friction = friction;
-  scene.obstacles = {floor};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   scene.contacts = {{"a", "floor"}, {"b", "floor"}};
   scene.loads = {{"c", 0.0, -1.0}};
   return scene;

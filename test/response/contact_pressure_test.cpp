@@ -32,7 +32,7 @@ TraceRequest BlockOnFloor(int columns, int nodes_per_element) {
       &scene, columns, 2, [](double x, double y) { return Eigen::Vector2d(2.0 * x, y); }, solid);
   for (Node& node : scene.nodes) node.fixed_x = node.x == 0.0;
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
-  BoundarySurface top{"top"};
+  BoundarySurface top = {"top", {}};
   for (int i = 0; i <= 2 * columns; ++i) {
     if (!HasGridNode(scene, i, 0)) continue;
     top.nodes.push_back(GridNode(&scene, i, 4).name);

@@ -200,11 +200,8 @@ TEST(JumpLandings, MoveOnFromALimitPointOfTheRest) {
         const std::string arm = (side < 0.0 ? "l" : "r") + std::to_string(i);
         scene.nodes.push_back({arm, side, 0.5 * (i - 1)});
         scene.bars.push_back({{arm, top}, 1.0});
-        Superelement spring;
-        spring.nodes = {below, arm};
         const double k = 5.0;
-        spring.stiffness = {k, 0, -k, 0, 0, k, 0, -k, -k, 0, k, 0, 0, -k, 0, k};
-        scene.superelements.push_back(spring);
+        scene.superelements.push_back({{below, arm}, {k, 0, -k, 0, 0, k, 0, -k, -k, 0, k, 0, 0, -k, 0, k}});
       }
     }
     TraceRequest request = Jumping(0.0, 900);

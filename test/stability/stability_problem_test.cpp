@@ -25,30 +25,15 @@ Scene LinearScene(const Eigen::MatrixXd& stiffness, std::size_t on_floor, double
   Superelement part;
   const auto nodes = static_cast<std::size_t>(stiffness.rows() / 2);
   for (std::size_t i = 0; i < nodes; ++i) {
-    Node node;
-    node.name = "n" + std::to_string(i);
-    node.x = static_cast<double>(i);
-    scene.nodes.push_back(node);
-    part.nodes.push_back(node.name);
+    part.nodes.push_back("n" + std::to_string(i));
+    scene.nodes.push_back({part.nodes.back(), static_cast<double>(i)});
   }
   for (Eigen::Index i = 0; i < stiffness.rows(); ++i)
     for (Eigen::Index j = 0; j < stiffness.cols(); ++j) part.stiffness.push_back(stiffness(i, j));
   scene.superelements = {part};
-  Obstacle floor;
-  floor.name = "floor";
-  floor.ny = 1.0;
-  floor.friction = friction;
-  scene.obstacles = {floor};
-  for (std::size_t i = 0; i < on_floor; ++i) {
-    ContactCandidate contact;
-    contact.node = scene.nodes[i].name;
-    contact.obstacle = "floor";
-    scene.contacts.push_back(contact);
-  }
-  Load load;
-  load.node = scene.nodes.back().name;
-  load.fx = 1.0;
-  scene.loads = {load};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+  for (std::size_t i = 0; i < on_floor; ++i) scene.contacts.push_back({scene.nodes[i].name, "floor"});
+  scene.loads = {{scene.nodes.back().name, 1.0}};
   return scene;
 }
 
@@ -169,8 +154,7 @@ TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
         K(i, j) = tangent.coeff(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
-    if (!K.allFinite()) continue;
-    if (n == 0) continue;
+    if (n == 0 || !K.allFinite()) continue;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K);
     if (!(solver.eigenvalues().cwiseAbs().minCoeff() > 1e-8 * solver.eigenvalues().cwiseAbs().maxCoeff())) continue;
     const auto negative = static_cast<int>((solver.eigenvalues().array() < 0.0).count());
@@ -200,14 +184,10 @@ class Motion {
       : contacts_(contacts), friction_(friction), mass_(m / (h * h)), drag_(c / h) {
     dynamic_ = K;
     dynamic_.diagonal() += mass_ + drag_;
-    for (Eigen::Index i = 0; i < K.rows(); ++i)
-      if (i >= 2 * contacts || i % 2 == 0) free_.push_back(i);
-    n_ = static_cast<Eigen::Index>(free_.size());
     // Unknowns: slips of the contacts first, then what is free.
-    std::vector<Eigen::Index> order;
-    for (Eigen::Index i = 0; i < contacts; ++i) order.push_back(2 * i);
-    for (Eigen::Index i = 2 * contacts; i < K.rows(); ++i) order.push_back(i);
-    free_ = order;
+    for (Eigen::Index i = 0; i < contacts; ++i) free_.push_back(2 * i);
+    for (Eigen::Index i = 2 * contacts; i < K.rows(); ++i) free_.push_back(i);
+    n_ = static_cast<Eigen::Index>(free_.size());
   }
 
   // Whether |v| has grown at the end of these steps.

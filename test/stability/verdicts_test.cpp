@@ -45,17 +45,11 @@ TraceRequest LatticeOnFloor(unsigned seed) {
         const double EA = std::pow(10.0, random.Number(-0.5, 0.5)) * (up != 0 && right != 0 ? slender : 1.0);
         scene.bars.push_back({{NameAt(i, j), NameAt(i + right, j + up)}, EA});
       }
-  Obstacle floor;
-  floor.name = "floor";
-  floor.ny = 1.0;
-  floor.friction = seed % 7 == 0 ? 0.0 : random.Number(0.1, 3.0);
-  scene.obstacles = {floor};
+  const double friction = seed % 7 == 0 ? 0.0 : random.Number(0.1, 3.0);
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   const double aside = random.Number(-3.0, 3.0);
   for (int i = 1; i <= feet; ++i) {
-    ContactCandidate contact;
-    contact.node = NameAt(i, 0);
-    contact.obstacle = "floor";
-    scene.contacts.push_back(contact);
+    scene.contacts.push_back({NameAt(i, 0), "floor"});
     scene.loads.push_back({NameAt(i, rows - 1), aside, -random.Number(0.2, 1.0), false});
   }
   request.options.max_increments = 40;
