@@ -10,16 +10,10 @@
 #include "support/parts.h"
 #include "support/traced_path.h"
 #include "verify/disturbance.h"
+#include "verify/verified.h"
 
 namespace contact_path::verdicts_test {
 namespace {
-
-std::string Listed(const Verification& verification) {
-  std::string text;
-  for (const Finding& finding : verification.findings)
-    text += "increment " + std::to_string(finding.increment) + ": " + finding.what + '\n';
-  return text;
-}
 
 bool Inside(const Increment& increment) {
   return increment.kind == IncrementKind::kRegular && increment.event.branches.empty();
