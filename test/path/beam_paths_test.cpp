@@ -44,7 +44,7 @@ double ErrorOfElastica(int segments, Method method) {
   }
   request.options.method = method;
   request.options.max_increments = 3000;
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   double error = 0.0;
   for (int stage = 1; stage <= static_cast<int>(std::size(kElastica)); ++stage) {
     const Increment& increment = LastOfStage(path, stage);
@@ -68,7 +68,7 @@ TEST(BeamPaths, IncrementsAreAsLongForFineAndForSlenderBeams) {
     request.scene.beams[0].EA = EA;
     request.scene.loads = {Force("b", 0.0, 1.0)};
     request.options.stop = {{"load_factor", ">", 10.0}};
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceTo(request);
     return static_cast<double>(path.increments.size());
   };
   const double usual = increments(20, 1e6);
@@ -99,7 +99,7 @@ TEST(BeamPaths, RollsUpTwice) {
   request.scene.loads = {{"b", 0.0, 0.0, false, 4.0 * M_PI}};
   request.options.max_increments = 3000;
   request.options.stop = {{"b.rotation", ">", 4.0 * M_PI}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   for (const Increment& increment : path.increments) {
     // Each segment turns by M / EI times its length.
     const double turn = increment.load_factor * 4.0 * M_PI / 20.0;
@@ -122,7 +122,7 @@ TEST(BeamPaths, RotationOfASupport) {
   request.options.stop = {{"load_factor", ">", 1.0}};
   for (const Method method : kMethods) {
     request.options.method = method;
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceTo(request);
     const double turn = Rotation(path, path.increments.back(), "b");
     EXPECT_NEAR(turn, 1e-3 * path.increments.back().load_factor, 1e-14);
     EXPECT_NEAR(path.increments.back().strain_energy / (2.0 * turn * turn), 1.0, 1e-4);
@@ -148,7 +148,8 @@ TEST(BeamPaths, BuckledColumn) {
   request.scene.loads = {Force("b", -1.0, 1e-6)};
   request.options.max_increments = 3000;
   request.options.stop = {{"b.rotation", ">", 110.0 * M_PI / 180.0}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceIncrements(request);
+  ExpectEnd(path, EndReason::kStopCriterion);
   for (const auto& row : table) {
     const double wanted = row.degrees * M_PI / 180.0;
     std::size_t i = 1;
@@ -163,7 +164,7 @@ TEST(BeamPaths, BuckledColumn) {
 // Loads of the smooth limit points of an example scene.
 std::vector<double> LimitLoads(TraceRequest request) {
   request.options.max_increments = 5000;
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   return LoadsOfKind(path, IncrementKind::kSmoothLimit);
 }
 
@@ -202,7 +203,7 @@ TEST(BeamPaths, TractionOnABeam) {
   TraceRequest request = Cantilever(20);
   request.scene.loads = {LoadOnGroup("leg", 0.0, -1e-3)};
   request.options.stop = {{"load_factor", ">", 1.0}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   const Increment& last = path.increments.back();
   EXPECT_NEAR(-8.0 * PositionY(path, last, "b") / (1e-3 * last.load_factor), 1.0, 2e-3);
 }
@@ -240,7 +241,7 @@ TEST(BeamPaths, FrameOfManyBays) {
         request.scene.beams.push_back(Between("", name(column - 1, row), name(column, row), 1e3, 1.0, 4));
     }
   request.options.max_increments = 6;
-  const TracedPath path = TraceProved(request, EndReason::kMaxIncrements);
+  const TracedPath path = TraceTo(request, EndReason::kMaxIncrements);
   EXPECT_GT(path.increments.back().arc_length, 0.5);
 }
 
@@ -266,7 +267,7 @@ TEST(BeamPaths, ArchThatNothingHoldsSideways) {
   request.scene.nodes[1].fixed_x = false;
   request.options.max_increments = 2000;
   request.options.stop = {{"crown.y", "<", -0.5}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   for (const Increment& increment : path.increments) {
     EXPECT_NEAR(PositionX(path, increment, "crown"), 0.0, 1e-6);
     EXPECT_NEAR(PositionX(path, increment, "left"), -PositionX(path, increment, "right"), 1e-6);

@@ -19,8 +19,8 @@ constexpr double kExact = 5e-8;  // contacts of bodies give way by 1e-8 of their
 // A box of the weight 1, `width` wide, on a rough floor; the reference point is above its middle at this height.
 TraceRequest Box(double width, double height, double friction) {
   TraceRequest request;
-  request.scene = BoxOnFloor(width, height, friction, 1.0);
-  request.scene.loads.push_back(LoadOnBody("box", 1.0, 0.0));
+  request.scene = BoxOnFloor(width, height, friction);
+  request.scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("box", 1.0, 0.0)};
   request.options.max_increments = 400;
   return request;
 }
@@ -41,7 +41,7 @@ TEST(Bodies, ABoxTipsByAMoment) {
   TraceRequest request = Box(1.0, 0.8, 0.9);
   request.scene.loads[1] = LoadOnBody("box", 0.0, 0.0, false, -1.0);
   request.options.stop = {{"box.rotation", "<", -0.5}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   EXPECT_NEAR(LargestLoadFactor(path), 0.5, kExact);
   int tipped = 0;
   for (const Increment& increment : path.increments) {
@@ -104,7 +104,7 @@ TEST(Bodies, LeastReactionsWhereEquilibriumDoesNotTellThem) {
         squares += foot * foot;
       }
       request.options.stop = {{"load_factor", ">", 0.1}};  // H, and M = -H size
-      const TracedPath path = TraceProved(request);
+      const TracedPath path = TraceTo(request);
       const Increment& last = path.increments.back();
       const double push = last.load_factor, count = static_cast<double>(feet.size());
       for (std::size_t i = 0; i < feet.size(); ++i) {

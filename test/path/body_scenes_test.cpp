@@ -20,7 +20,7 @@ TEST(BodyScenes, LimitsInClosedForm) {
        {std::tuple("held_disc", 0.4, 5e-9), std::tuple("ladder", climbed, 5e-8), std::tuple("three_discs", rolls, 5e-7),
         std::tuple("masonry_arch", 0.29661, 5e-6)}) {
     SCOPED_TRACE(scene);
-    const TracedPath path = TraceProved(ReadExample(scene), EndReason::kAtLimit);
+    const TracedPath path = TraceTo(ReadExample(scene), EndReason::kAtLimit);
     EXPECT_NEAR(LargestLoadFactor(path), load, tolerance);
   }
 }
@@ -29,7 +29,7 @@ TEST(BodyScenes, LimitsInClosedForm) {
 TEST(BodyScenes, AHeldDiscSlipsAtTheSameLoadWhicheverWayItIsTurned) {
   for (const double degrees : {17.0, 90.0, 230.9, 301.3}) {
     SCOPED_TRACE(degrees);
-    const TracedPath path = TraceProved(Rotate(ReadExample("held_disc"), degrees * M_PI / 180.0), EndReason::kAtLimit);
+    const TracedPath path = TraceTo(Rotate(ReadExample("held_disc"), degrees * M_PI / 180.0), EndReason::kAtLimit);
     EXPECT_NEAR(LargestLoadFactor(path), 0.4, 5e-9);
   }
 }
@@ -152,7 +152,7 @@ TEST(BodyScenes, ArchesOfBlocksAreThoseOfLinearPrograms) {
   for (const auto& [blocks, thickness, load] : {std::tuple(4, 0.3, 0.55181), std::tuple(8, 0.2, 0.29661),
                                                 std::tuple(12, 0.15, 0.15733), std::tuple(12, 0.12, 0.06186)}) {
     SCOPED_TRACE(testing::Message() << blocks << " blocks, " << thickness);
-    const TracedPath path = TraceProved(Arch(blocks, thickness), EndReason::kAtLimit);
+    const TracedPath path = TraceTo(Arch(blocks, thickness), EndReason::kAtLimit);
     EXPECT_NEAR(LargestLoadFactor(path), load, 1e-5);
   }
 }

@@ -59,7 +59,7 @@ TEST(CriticalLoads, AColumnBesideAWall) {
         SCOPED_TRACE(testing::Message() << l << " " << k << " " << friction);
         TraceRequest request = Column(l, k, AtLimit::kStop, 0.0137);
         request.scene.contacts = {{"head", "left", "", "", friction}, {"head", "right"}};
-        EXPECT_NEAR(LeavesStability(TraceProved(request, EndReason::kAtLimit)).load_factor, k / l, 1e-8 * k / l);
+        EXPECT_NEAR(LeavesStability(TraceTo(request, EndReason::kAtLimit)).load_factor, k / l, 1e-8 * k / l);
         request.options.at_limit = AtLimit::kJump;
         const TracedPath jumps = TraceVerified(request);
         EXPECT_TRUE(jumps.result.reached) << jumps.result.message;
@@ -89,7 +89,8 @@ TEST(CriticalLoads, AMastWithGuysOfTheLengthThatTheyHave) {
       request.program = {LoadingStage({{"head", 0.0, -1.0}}, 0.6 * EA)};
       const double critical = 4.0 * EA * 9.0 / 125.0;
       request.options.at_limit = AtLimit::kStop;
-      const TracedPath path = TraceProved(request, EndReason::kAtLimit);
+      const TracedPath path = TraceIncrements(request);
+      ExpectEnd(path, EndReason::kAtLimit);
       EXPECT_NEAR(LeavesStability(path).load_factor, critical, 1e-8 * critical);
       request.options.at_limit = AtLimit::kFollow;
       const TracedPath followed = TraceVerified(request);
@@ -113,8 +114,8 @@ TEST(CriticalLoads, AColumnBetweenPads) {
                      {"fr", ObstacleShape::kHalfPlane, 0.1, 1.0, 1.0, 0.0}};
   for (Obstacle& face : scene.obstacles) face.body = "m";
   scene.contacts = {{"pl", "fl"}, {"pr", "fr"}};
-  const TracedPath path =
-      TraceProved(RequestUpToALimit(scene, {LoadingStage({LoadOnBody("m", 0.0, -1.0)}, 30.0)}), EndReason::kAtLimit);
+  const TracedPath path = TraceIncrements(RequestUpToALimit(scene, {LoadingStage({LoadOnBody("m", 0.0, -1.0)}, 30.0)}));
+  ExpectEnd(path, EndReason::kAtLimit);
   EXPECT_NEAR(path.increments.back().load_factor, 10.0, 2e-7);
   EXPECT_EQ(path.increments.back().stability.stability, Verdict::kUnstable);
 }

@@ -25,7 +25,7 @@ Obstacle Through(ObstacleShape shape, const std::vector<double>& points, double 
 }
 
 TracedPath TraceSound(const TraceRequest& request) {
-  TracedPath path = TraceProved(request);
+  TracedPath path = TraceTo(request);
   ExpectSoundIncrements(path, kSound);
   return path;
 }
@@ -232,7 +232,7 @@ TEST(CurvedPaths, AStageBeginsOnADrumThatHasTurned) {
   request.program.resize(2);
   request.program[0].obstacle_motions = {{"drum", 0.0, 0.0, 9.0, 0.0, 0.0}};
   request.program[1].obstacle_motions = {{"drum", 0.2, -0.1, -0.5, 0.0, 0.0}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   ExpectNoFindings(path);
   std::vector<std::vector<ContactState>> states(2);
   for (const Increment& increment : path.increments) {

@@ -73,10 +73,7 @@ TEST(FixedSurface, WithoutFrictionIsTheSameByTheTotalLaw) {
 
 TEST(OnPlank, TheNodeIsCarriedByItsShapeFunctions) {
   const Plank plank;
-  TraceRequest request;
-  request.scene = plank.MakeScene();
-  request.options.stop = {{"load_factor", ">", 1.0}};
-  const TracedPath path = TraceProved(request, kResidual);
+  const TracedPath path = TraceProved(RequestUntil({"load_factor", ">", 1.0}, plank.MakeScene()), kResidual);
   for (const Increment& increment : path.increments) EXPECT_LE(plank.Error(increment), 1e-12);
   EXPECT_GT(PositionX(path, path.increments.back(), "p"), 0.5);
 }

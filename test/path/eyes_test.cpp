@@ -31,7 +31,7 @@ TEST(Eyes, TheTensionsDifferByTheCapstanFactor) {
     for (const double friction : {0.1, 0.3, 1.0})
       for (const double EA : {20.0, 1e3, 1e6}) {
         SCOPED_TRACE(::testing::Message() << "turn " << turn << " friction " << friction << " EA " << EA);
-        const TracedPath path = TraceProved(DrawnAndReleased(turn, friction, EA));
+        const TracedPath path = TraceTo(DrawnAndReleased(turn, friction, EA));
         const double factor = std::exp(friction * turn);
         double sticks = 0.0, leaves = 0.0;
         for (const Increment& increment : path.increments) {
@@ -105,7 +105,7 @@ TEST(Eyes, GoesSlackAsAWhole) {
   request.scene.nodes[2].fixed_x = request.scene.nodes[2].fixed_y = true;
   request.scene.tendons[0].rest_length = 2.1;
   request.program = {MovingStage({{"drawn", 0.0, -0.2}}), MovingStage({{"drawn", 0.0, 0.2}})};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   for (const int stage : {1, 2}) {
     const Increment& changes = FirstThat(path, [&](const Increment& of) {
       return of.stage == stage && of.kind == IncrementKind::kContactEvent && of.contacts[0].rn < kSoft;
@@ -140,7 +140,7 @@ TraceRequest Finger() {
 
 TEST(Eyes, OfAFingerAreTheSameInOtherWords) {
   const TraceRequest request = Finger();
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, kSame);
   // What slides through an eye has no side.
   const TracedPath mirrored = TraceIncrements(Mirror(request));

@@ -22,8 +22,7 @@ TracedPath Clamped(double radius, double weight, double beyond) {
                      Circle("rim", 0.0, radius, radius, 0.0, "disc")};
   scene.obstacles[2].body = "plate";
   scene.contacts = {Rolls("rim", "floor"), Rolls("rim", "wall"), Rolls("rim", "face")};
-  scene.loads = {LoadOnBody("disc", 0.0, 0.0, true)};
-  scene.loads[0].by = -weight;
+  scene.loads = {WeightOf("disc", weight)};
   return TraceIncrements(RequestOf(scene, {MovingStage({{"", -radius, 0.0, 0.0, "", "plate"}}, 1.0 + beyond)}));
 }
 
@@ -46,9 +45,10 @@ TEST(ForcesOfBodies, AWeightIsAsLargeAsItIs) {
   for (const double weight : {1e-3, 1.0, 1e4, 1e7}) {
     SCOPED_TRACE(weight);
     TraceRequest request;
-    request.scene = BoxOnFloor(1.0, 1.0, 0.4, weight);
+    request.scene = BoxOnFloor(1.0, 1.0, 0.4);
+    request.scene.loads = {WeightOf("box", weight)};
     request.program = {{"", {}, {}, {{"floor", 0.0, 0.0, 1.0}}, 0.3}};
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceTo(request);
     const Increment& last = path.increments.back();
     EXPECT_NEAR(last.contacts[0].rn, (0.5 * std::cos(0.3) + std::sin(0.3)) * weight, 1e-8 * weight);
     EXPECT_NEAR(last.contacts[1].rn, (0.5 * std::cos(0.3) - std::sin(0.3)) * weight, 1e-8 * weight);

@@ -90,7 +90,7 @@ TEST(FrictionChanges, ThePathEndsWhereFrictionIsGone) {
         request.options.direction = side;
         if (floor_moves > 0.0) request.scene.obstacle_motions = {{"floor", units.length / units.load_factor, 0.0}};
         const TracedPath path =
-            TraceProved(request, EndReason::kPathEnd, "the friction of obstacle floor falls to 0 at load factor ");
+            TraceTo(request, EndReason::kPathEnd, "the friction of obstacle floor falls to 0 at load factor ");
         EXPECT_FALSE(path.result.reached);
         const Increment& last = path.increments.back();
         EXPECT_NEAR(last.load_factor * side / units.load_factor, 0.8, kLeft);
@@ -151,7 +151,7 @@ TEST(FrictionChanges, AStageDoesNotGoBeyondItsFriction) {
   request.program.resize(2);
   request.program[0].friction_changes = {{"floor", -0.4}};
   request.program[1].friction_changes = {{"floor", -0.2}};
-  const TracedPath path = TraceProved(request, EndReason::kPathEnd);
+  const TracedPath path = TraceTo(request, EndReason::kPathEnd);
   EXPECT_EQ(path.increments.back().stage, 2);
   EXPECT_NEAR(path.increments.back().load_factor, 0.5, kLeft);
 }
@@ -162,8 +162,12 @@ TEST(FrictionChanges, APathIsResumed) {
   request.scene.obstacle_motions = {{"floor", 1.0, 0.0}};
   request.options.stop = {{"load_factor", ">", 1.0}};
   const TracedPath path = TraceProved(request);
-  for (const std::size_t kept : {std::size_t{3}, path.increments.size() - 2})
-    ExpectSamePath(ResumeAfter(kept, path), path, kExact);
+  for (const std::size_t kept : {std::size_t{3}, path.increments.size() - 2}) {
+    const TracedPath resumed = ResumeAfter(kept, path);
+    ExpectSameEvents(resumed, path, kExact);
+    EXPECT_NEAR(resumed.increments.back().dissipation, path.increments.back().dissipation, kExact);
+    EXPECT_NEAR(resumed.increments.back().contacts[0].rt, path.increments.back().contacts[0].rt, kExact);
+  }
 }
 
 // A box under its weight slides down a slope where mu = tan(slope).
@@ -189,7 +193,7 @@ TEST(FrictionChanges, ABoxSlidesWhereFrictionIsTheSlope) {
         scene.loads = {LoadOnBody("box", 0.0, -units.force, true)};
         scene.friction_changes = {{"slope", -0.5 / units.load_factor}};
         const TracedPath path =
-            TraceProved(mirrored ? Mirror(RequestUpToALimit(scene)) : RequestUpToALimit(scene), EndReason::kAtLimit);
+            TraceTo(mirrored ? Mirror(RequestUpToALimit(scene)) : RequestUpToALimit(scene), EndReason::kAtLimit);
         EXPECT_NEAR(LargestLoadFactor(path) / units.load_factor, (1.0 - std::tan(slope)) / 0.5, kGives);
       }
 }
@@ -211,7 +215,7 @@ TEST(FrictionChanges, ALadderSlipsWhereTheFloorNoLongerHoldsIt) {
         scene.friction_changes = {{"floor", -1.0}};
         request.options.at_limit = AtLimit::kStop;
         request.options.record = {"inner"};
-        const TracedPath path = TraceProved(request, EndReason::kAtLimit);
+        const TracedPath path = TraceTo(request, EndReason::kAtLimit);
         const double critical = 1.0 / (2.0 * std::tan(angle) + of_wall);
         EXPECT_NEAR(1.0 - LargestLoadFactor(path), critical, kGives);
       }
@@ -234,7 +238,7 @@ TEST(FrictionChanges, ADiscSlipsOutOfAGrip) {
       }
       scene.loads.push_back(LoadOnBody("disc", 0.0, -weight * units.force, true));
       scene.friction_changes = {{"rim", -0.4 / units.load_factor}};
-      const TracedPath path = TraceProved(RequestUpToALimit(scene), EndReason::kAtLimit);
+      const TracedPath path = TraceTo(RequestUpToALimit(scene), EndReason::kAtLimit);
       EXPECT_NEAR(LargestLoadFactor(path) / units.load_factor, (0.9 - 0.5 * weight) / 0.4, kGives);
     }
 }

@@ -108,8 +108,8 @@ TEST(MpecBodies, ABoxSlidesOrTips) {
     for (const auto& [friction, width] : {std::pair(0.2, 1.0), {0.8, 1.0}}) {
       SCOPED_TRACE(testing::Message() << "size " << size << ", mu " << friction << ", width " << width);
       TraceRequest request;
-      request.scene = BoxOnFloor(width * size, size, friction, 1.0);
-      request.scene.loads.push_back(LoadOnBody("box", 1.0, 0.0));
+      request.scene = BoxOnFloor(width * size, size, friction);
+      request.scene.loads = {LoadOnBody("box", 0.0, -1.0, true), LoadOnBody("box", 1.0, 0.0)};
       request.options.max_increments = 12;
       request.options.step = 0.2;
       EXPECT_NEAR(LargestLoadFactor(TraceByMpec(request)), std::min(friction, 0.5 * width), kCorner);

@@ -41,7 +41,8 @@ TEST(PointsOfBodies, ALoadKeepsItsDirection) {
     for (const double k : {1e-3, 2.0, 5e3})
       for (const double aside : {0.0, 0.1}) {
         SCOPED_TRACE(testing::Message() << l << ' ' << k << ' ' << aside);
-        const TracedPath path = TraceProved(Column(l, k, aside));
+        const TracedPath path = TraceIncrements(Column(l, k, aside));
+        ExpectEnd(path, EndReason::kStopCriterion);
         if (aside == 0.0) {
           EXPECT_NEAR(LoadsOfKind(path, IncrementKind::kBifurcation).at(0) * l / k, 1.0, kExact);
           continue;
@@ -50,6 +51,7 @@ TEST(PointsOfBodies, ALoadKeepsItsDirection) {
           const double t = std::asin(PositionX(path, increment, "top") / l);
           EXPECT_NEAR(increment.load_factor * l * (std::sin(t) + aside * std::cos(t)), k * t, kExact * k);
         }
+        ExpectNoFindings(path);
       }
 }
 
@@ -57,7 +59,8 @@ TEST(PointsOfBodies, ALoadKeepsItsDirection) {
 TEST(PointsOfBodies, AMomentIsOneOfTheBody) {
   TraceRequest request = Column(1.0, 2.0, 0.0);
   request.scene.loads = {{"top", 0.0, 0.0, false, 1.0}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceIncrements(request);
+  ExpectEnd(path, EndReason::kStopCriterion);
   const double x = PositionX(path, path.increments.back(), "top");
   EXPECT_NEAR(std::sin(path.increments.back().load_factor / 2.0), -x, kExact);
 }
@@ -103,7 +106,7 @@ TEST(PointsOfBodies, CornersPressOnASurface) {
   scene.contacts = {{"l", "", "", "top", 0.3}, {"r", "", "", "top", 0.3}};
   scene.loads = {LoadOnBody("punch", 0.0, -1.0)};
   request.options.stop = {{"load_factor", ">", 0.05}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   const Increment& last = path.increments.back();
   ASSERT_EQ(last.pins.size(), 2u);
   EXPECT_NEAR(last.pins[0].ry + last.pins[1].ry, -last.load_factor, kExact);

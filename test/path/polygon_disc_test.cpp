@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <vector>
 
 #include "support/curved_obstacles.h"
@@ -81,7 +80,7 @@ TraceRequest NodeAt(double angle, double distance, const Springs& springs, const
 }
 
 TracedPath TraceSound(const TraceRequest& request) {
-  TracedPath path = TraceProved(request);
+  TracedPath path = TraceTo(request);
   ExpectSoundIncrements(path, kSound);
   return path;
 }
@@ -246,7 +245,6 @@ TEST(PolygonDisc, OneThatTurnsHoldsANodeAsTheCircleDoes) {
         EXPECT_NEAR(contact.rt, kFriction * contact.rn, kRounding);
       }
       EXPECT_GE(NumEvents(path), 2 * kEdges);
-      std::cout << polygon.name << ": " << path.increments.size() << " increments, " << NumEvents(path) << " events\n";
     }
   }
 }

@@ -51,7 +51,7 @@ Preload RunPreload(const Scene& scene, double step = 0.2, int max_increments = 2
   return preload;
 }
 
-void ExpectEnd(const Preload& preload, EndReason end, const std::string& text) {
+void ExpectEnd(const Preload& preload, EndReason end, const std::string& text = "") {
   EXPECT_FALSE(preload.done);
   EXPECT_EQ(preload.end.reason, end);
   EXPECT_NE(EndText(preload.end.causes).find(text), std::string::npos) << EndText(preload.end.causes);
@@ -167,7 +167,7 @@ TEST(Preload, CanBeCancelled) {
   const Preload preload = TracePreload(
       model, 100, [](const Model&, double) { return std::make_unique<FakeMethod>(true, Advance()); },
       [] { return true; });
-  ExpectEnd(preload, EndReason::kCancelled, "");
+  ExpectEnd(preload, EndReason::kCancelled);
 }
 
 TEST(Preload, MethodThatCannotSetOutIsTheEndOfThePath) {

@@ -21,7 +21,7 @@ Scene Block(double side, double friction_of_floor) {
   return scene;
 }
 
-TracedPath TraceWhole(const TraceRequest& request) { return TraceProved(request, 1e-9); }
+TracedPath TraceWhole(const TraceRequest& request) { return TraceTo(request, EndReason::kStopCriterion, 1e-9); }
 
 TraceRequest BeltAgainstStop(double clearance) {
   TraceRequest request;
@@ -73,19 +73,19 @@ TEST(Redistribution, TheChangeIsAnIncrement) {
 }
 
 // A block that a side load draws, and another rough half plane at this height; one of the two obstacles moves by dy.
-TracedPath TraceBetween(double side, const std::string& other, double height, double friction, const std::string& moves,
-                        double dy, double target) {
+TraceRequest Between(double side, const std::string& other, double height, double friction, const std::string& moves,
+                     double dy, double target) {
   TraceRequest request;
   request.scene = Block(side, 0.3);
   request.scene.obstacles.push_back({other, kHalfPlane, 0.0, height, 0.0, 1.0, friction});
   request.scene.contacts.push_back({"b", other});
   request.program = {{"", {}, {}, {{moves, 0.0, dy}}, target}};
-  return TraceWhole(request);
+  return request;
 }
 
 // A lift takes the node off the table; a side load rests on friction before and after.
 TEST(Redistribution, ALiftTakesANodeOffATable) {
-  const TracedPath path = TraceBetween(0.1, "lift", -0.05, 0.3, "lift", 1.0, 0.15);
+  const TracedPath path = TraceWhole(Between(0.1, "lift", -0.05, 0.3, "lift", 1.0, 0.15));
   const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), 0.1, kRounding);
@@ -95,13 +95,13 @@ TEST(Redistribution, ALiftTakesANodeOffATable) {
   EXPECT_NEAR(end.dissipation, 0.0, kRounding);
 }
 
-TracedPath TableAbove(double friction_of_low) {
-  return TraceBetween(0.2, "low", -0.1, friction_of_low, "floor", -1.0, 0.25);
+TraceRequest TableAbove(double friction_of_low) {
+  return Between(0.2, "low", -0.1, friction_of_low, "floor", -1.0, 0.25);
 }
 
 // A table goes down and hands a node over to a lower one that can hold its side load.
 TEST(Redistribution, ATableHandsANodeOver) {
-  const TracedPath path = TableAbove(0.6);
+  const TracedPath path = TraceWhole(TableAbove(0.6));
   const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), -0.1, kRounding);
@@ -113,7 +113,7 @@ TEST(Redistribution, ATableHandsANodeOver) {
 // The lower one cannot: while the tables are level, the node slides as far as the spring takes its share. Friction of
 // both, 0.3 r + 0.1 (0.9 - r) = 0.2 - x, with all of the weight on the upper one at first and none in the end.
 TEST(Redistribution, ATableHandsANodeOverThatSlides) {
-  const TracedPath path = TableAbove(0.1);
+  const TracedPath path = TraceTo(TableAbove(0.1));
   const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.11, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), -0.1, kRounding);

@@ -1,6 +1,7 @@
 // A trace that was cut short and gone on with is the one without interruption.
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -69,10 +70,27 @@ TEST(Resume, ToRounding) {
   }
 }
 
+// Of positions and load factor from the chords of the path.
+double DistanceFrom(const TracedPath& path, const Increment& increment) {
+  const auto place = [](const Increment& of) {
+    Eigen::VectorXd coordinates(static_cast<Eigen::Index>(of.positions.size()) + 1);
+    coordinates << Eigen::Map<const Eigen::VectorXd>(of.positions.data(), coordinates.size() - 1), of.load_factor;
+    return coordinates;
+  };
+  const Eigen::VectorXd at = place(increment);
+  double nearest = (at - place(path.increments[0])).norm();
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    const Eigen::VectorXd from = place(path.increments[i - 1]), chord = place(path.increments[i]) - from;
+    const double share = std::clamp(chord.dot(at - from) / std::max(chord.squaredNorm(), 1e-300), 0.0, 1.0);
+    nearest = std::min(nearest, (at - from - share * chord).norm());
+  }
+  return nearest;
+}
+
 // The steps of Ipopt depend on where its iterations set out: from the last solution, which is not on record. The path
 // itself does not.
 TEST(Resume, ByMpec) {
-  constexpr double kChords = 1e-4;  // between the curve and the chords of increments of this length, scaled
+  constexpr double kChords = 1e-3;  // between the curve and the chords of increments of this length
   for (const char* name : {"sliding_bar", "stick_slip_cycle"}) {
     TraceRequest request = ReadExample(name);
     request.options.method = Method::kMpec;
@@ -80,10 +98,10 @@ TEST(Resume, ByMpec) {
     for (std::size_t cut = 1; cut <= whole.increments.size(); cut += whole.increments.size() / 6 + 1) {
       const TracedPath resumed = ResumeAfter(cut, whole);
       EXPECT_EQ(whole.result.reason, resumed.result.reason) << name << " after " << cut;
-      double worst = 0.0, place = 0.0;
+      double worst = 0.0;
       // The last increment is beyond the stop criterion, farther or less far.
       for (std::size_t i = 0; i + 1 < resumed.increments.size(); ++i)
-        worst = std::max(worst, DistanceFromPath(resumed.increments[i], whole, &place));
+        worst = std::max(worst, DistanceFrom(whole, resumed.increments[i]));
       EXPECT_LE(worst, kChords) << name << " after " << cut;
     }
   }

@@ -39,7 +39,7 @@ TEST_P(StopAtValue, EndsThereWhateverTheSteps) {
     TraceRequest request = ReadExample(GetParam().scene);
     request.options.accuracy = accuracy;
     request.options.stop = {GetParam().stop};
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceTo(request);
     const Increment& last = path.increments.back();
     EXPECT_EQ(last.kind, IncrementKind::kSample);
     const double value = GetParam().stop.value;
@@ -75,7 +75,7 @@ TEST(StopAtValue, PlacesOfObstacles) {
   request.program[1].obstacle_motions = {{"peg", 0.0, -0.1, 1.0, 1001.5, 0.4}};
   request.options.at = {{"peg.y", {0.6, 0.45}}};
   request.options.stop = {{"turn_peg", ">", 0.25}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   const Increment& last = path.increments.back();
   EXPECT_NEAR(last.load_factor, 0.25, 1e-12);
   EXPECT_NEAR(Value(path, "peg.x", last), 1001.5 - 0.5 * std::cos(0.25), 1e-10);
@@ -102,7 +102,8 @@ TEST(StopAtValue, InexactTakesTheNextIncrementBeyond) {
 TEST(StopAtValue, ThatHoldsFromTheStartEndsAfterOneIncrement) {
   TraceRequest request = ReadExample("sliding_bar");
   request.options.stop = {{"b.x", ">", -100.0}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceIncrements(request);
+  ExpectEnd(path, EndReason::kStopCriterion);
   EXPECT_EQ(path.increments.size(), 2U);
 }
 
@@ -119,7 +120,7 @@ TEST(Samples, LieWhereverThePathPassesTheValues) {
   TraceRequest request = ReadExample("von_mises");
   const TracedPath without = TraceIncrements(request);
   request.options.at = {{"load_factor", {0.1, -0.1, 0.15}}, {"apex.y", {}, 0.9, -0.9, 7}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   for (const Samples& samples : request.options.at)
     for (const double value : samples.Values()) {
       SCOPED_TRACE(samples.quantity + " = " + std::to_string(value));

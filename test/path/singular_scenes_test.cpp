@@ -109,7 +109,7 @@ TEST(SingularScenes, SlackTieBecomesTaut) {
     TraceRequest request = ReadData("slack_tie");
     request.options.step = step;
     request.options.max_increments = 3000;
-    const TracedPath path = TraceProved(request, kResidual);
+    const TracedPath path = TraceTo(request, EndReason::kStopCriterion, kResidual);
     for (const Increment& increment : path.increments) {
       const double b = PositionX(path, increment, "b");
       const double taut = std::max(0.0, (1.0 - b) / tie - 1.0);
@@ -177,7 +177,7 @@ TEST(SingularScenes, GuideWithoutClearanceForAnyStep) {
     TraceRequest request = ReadData("slot_step_dependent");
     request.options.step = step;
     request.options.max_increments = 600;
-    const TracedPath path = TraceProved(request, EndReason::kMaxIncrements, kResidual);
+    const TracedPath path = TraceTo(request, EndReason::kMaxIncrements, kResidual);
     const std::vector<double> loads = EventLoads(path, 4);
     ASSERT_EQ(loads.size(), 4U);
     if (first.empty()) first = loads;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,11 +16,17 @@ namespace {
 
 constexpr double kResidual = 1e-9;
 
-// As far as the increments of a preset go.
-TracedPath TraceIncrementsOf(TraceRequest request, Accuracy accuracy, int most, int most_accurate) {
+TraceRequest ReadWithin(const std::string& name, Accuracy accuracy, int max_increments) {
+  TraceRequest request = ReadData(name);
   request.options.accuracy = accuracy;
-  request.options.max_increments = accuracy == Accuracy::kAccurate ? most_accurate : most;
-  return TraceProved(request, EndReason::kMaxIncrements, kResidual);
+  request.options.max_increments = max_increments;
+  return request;
+}
+
+// As far as the increments of a preset go.
+TracedPath TraceWithin(const std::string& name, Accuracy accuracy, int most, int most_accurate) {
+  return TraceTo(ReadWithin(name, accuracy, accuracy == Accuracy::kAccurate ? most_accurate : most),
+                 EndReason::kMaxIncrements, kResidual);
 }
 
 // Perfect truss: sway begins where the stiffness across vanishes. The imperfect one leaves next to it.
@@ -91,7 +98,7 @@ TEST(SingularScenes, SlackBarsThatAreStraightAtTheStart) {
 // located as well as that admits.
 TEST(SingularScenes, LimitPointWhereRatesAreInexact) {
   for (const Accuracy accuracy : kPresets) {
-    const TracedPath path = TraceIncrementsOf(ReadData("limit_next_to_sway"), accuracy, 80, 500);
+    const TracedPath path = TraceWithin("limit_next_to_sway", accuracy, 80, 500);
     EXPECT_NEAR(LoadsOfKind(path, IncrementKind::kSmoothLimit).at(0), 0.03442360512675670842, 1e-12);
   }
 }
@@ -104,10 +111,7 @@ TEST(SingularScenes, ThePathStaysOnItsCurve) {
       {"slack_pairs_become_straight", {0.018342457360188, -0.107666910769746, -0.087483359271685}}};
   for (const auto& [name, expected] : loads)
     for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced}) {
-      TraceRequest request = ReadData(name);
-      request.options.accuracy = accuracy;
-      request.options.max_increments = 500;
-      const TracedPath path = TraceVerified(request, kResidual);
+      const TracedPath path = TraceVerified(ReadWithin(name, accuracy, 500), kResidual);
       std::vector<double> limits;
       for (const double load : LoadsOfKind(path, IncrementKind::kSmoothLimit))
         if (limits.empty() || std::abs(load - limits.back()) > 1e-11) limits.push_back(load);
@@ -120,7 +124,7 @@ TEST(SingularScenes, ThePathStaysOnItsCurve) {
 // The path of slack bars turns where they become straight, for one of two pairs a little earlier.
 TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
   for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
-    const TracedPath path = TraceIncrementsOf(ReadData("slack_pairs_become_straight"), accuracy, 80, 300);
+    const TracedPath path = TraceWithin("slack_pairs_become_straight", accuracy, 80, 300);
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_EQ(limits.size(), 1U);
     EXPECT_NEAR(limits[0].load_factor, 0.018342457360188313772, 1e-13);
@@ -175,10 +179,7 @@ TEST(SingularScenes, SlackPairSwingsThroughNextToAnother) {
 // right angle within 1e-6. Limit loads by continuation in 34 digits.
 TEST(SingularScenes, SharpTurnAtABrokenBifurcation) {
   for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
-    TraceRequest request = ReadData("bend_at_broken_bifurcation");
-    request.options.accuracy = accuracy;
-    request.options.max_increments = 600;
-    const TracedPath path = TraceVerified(request, kResidual);
+    const TracedPath path = TraceVerified(ReadWithin("bend_at_broken_bifurcation", accuracy, 600), kResidual);
     std::vector<double> limits = LoadsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_GE(limits.size(), 5U);
     limits.resize(5);
@@ -198,7 +199,7 @@ TEST(SingularScenes, SharpTurnAtABrokenBifurcation) {
 TEST(SingularScenes, ContactWithoutAReactionWhereSlackBarsBecomeStraight) {
   const double n3_n4 = std::hypot(0.5, 1.0), n4_n2 = 0.75;
   for (const Accuracy accuracy : kPresets) {
-    const TracedPath path = TraceIncrementsOf(ReadData("slack_bars_at_a_ceiling"), accuracy, 80, 250);
+    const TracedPath path = TraceWithin("slack_bars_at_a_ceiling", accuracy, 80, 250);
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_FALSE(limits.empty());
     EXPECT_NEAR(limits[0].load_factor, -0.1003102451, 1e-9);
@@ -234,12 +235,10 @@ TEST(SingularScenes, TwoTrussesNearlyEqual) {
   for (const double difference : {1e-8, 1e-10, 1e-12})
     for (const Accuracy accuracy : kPresets) {
       SCOPED_TRACE(difference);
-      TraceRequest request = ReadData("two_nearly_equal");
+      TraceRequest request = ReadWithin("two_nearly_equal", accuracy, accuracy == Accuracy::kAccurate ? 600 : 150);
       request.scene.bars[0].EA = request.scene.bars[1].EA = 1.0 + difference;
-      const TracedPath path = TraceIncrementsOf(std::move(request), accuracy, 150, 600);
-      const std::vector<double> limits = LoadsOfKind(path, IncrementKind::kSmoothLimit);
-      ASSERT_GE(limits.size(), 1U);
-      EXPECT_NEAR(limits[0], limit, 1e-12);
+      const TracedPath path = TraceTo(request, EndReason::kMaxIncrements, kResidual);
+      EXPECT_NEAR(LoadsOfKind(path, IncrementKind::kSmoothLimit).at(0), limit, 1e-12);
       double deepest = 0.0;
       for (const Increment& increment : path.increments)
         deepest = std::min(deepest, PositionY(path, increment, "n1") - PositionY(path, increment, "n0"));
@@ -266,7 +265,7 @@ TEST(SingularScenes, SymmetricHalvesAtTheirLimitPoints) {
     TraceRequest request = ReadData("sym_51");
     request.options.step = step;
     request.options.max_increments = 3000;
-    const TracedPath path = TraceProved(request, kResidual);
+    const TracedPath path = TraceTo(request, EndReason::kStopCriterion, kResidual);
     ExpectNear(LoadsOfKind(path, IncrementKind::kSmoothLimit), {0.05167840441, 0.05162508545}, 1e-10);
     for (const Increment& increment : path.increments)
       for (const char* node : {"n0", "n1", "n2"}) {
@@ -310,10 +309,8 @@ TEST(SingularScenes, StartAtALimitPoint) {
 TEST(SingularScenes, HighTrussWithTinyImperfections) {
   for (const double imperfection : {1e-6, 1e-10, 1e-12, 1e-13, 1e-14, 1e-16, 0.0})
     for (const Accuracy accuracy : kPresets) {
-      TraceRequest request = ReadData("imperfect_truss");
+      TraceRequest request = ReadWithin("imperfect_truss", accuracy, 500);
       request.scene.loads[0].fx = imperfection;
-      request.options.accuracy = accuracy;
-      request.options.max_increments = 500;
       request.options.stop = {{"n.x", ">", 0.5}, {"n.y", "<", 1.0}};
       const TracedPath path = TraceVerified(request, kResidual);
       const bool lost = path.result.reason == EndReason::kNotDetermined && imperfection > 0.0 &&
@@ -332,7 +329,7 @@ TEST(SingularScenes, FlatTruss) {
       TraceRequest request = ReadData("flat_truss");
       request.options.accuracy = accuracy;
       request.options.direction = direction;
-      const TracedPath path = TraceProved(request, EndReason::kMaxIncrements, kResidual);
+      const TracedPath path = TraceTo(request, EndReason::kMaxIncrements, kResidual);
       for (const Increment& increment : path.increments) {
         const double depth = -increment.positions[3], length = std::hypot(1.0, depth);
         EXPECT_NEAR(increment.load_factor, 2.0 * (length - 1.0) * depth / length, 1e-10);
@@ -345,7 +342,7 @@ TEST(SingularScenes, FlatTruss) {
 // and there is no bifurcation in between: the path turns, and sways as the crossing path of the symmetric truss does.
 TEST(SingularScenes, BrokenBifurcationOfATruss) {
   const auto load_when_swayed = [](const TraceRequest& request) {
-    const TracedPath path = TraceProved(request, kResidual);
+    const TracedPath path = TraceTo(request, EndReason::kStopCriterion, kResidual);
     EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kBifurcation).size(), request.options.branch_choices.size());
     const Increment &before = path.increments[path.increments.size() - 2], &last = path.increments.back();
     const double x = PositionX(path, last, "n1R"), moved = x - PositionX(path, before, "n1R");
@@ -358,10 +355,7 @@ TEST(SingularScenes, BrokenBifurcationOfATruss) {
   symmetric.options.branch_choices = {{1, 0, 3}};
   const double expected = load_when_swayed(symmetric);
   for (const Accuracy accuracy : kPresets) {
-    TraceRequest request = ReadData("broken_bifurcation");
-    request.options.accuracy = accuracy;
-    request.options.max_increments = 1000;
-    EXPECT_NEAR(load_when_swayed(request), expected, 1e-3);
+    EXPECT_NEAR(load_when_swayed(ReadWithin("broken_bifurcation", accuracy, 1000)), expected, 1e-3);
   }
 }
 

@@ -17,7 +17,7 @@ TracedPath TraceData(const std::string& name, Method method, Accuracy accuracy) 
   request.options.method = method;
   request.options.accuracy = accuracy;
   request.options.max_increments = 5000;
-  return TraceVerified(request);
+  return TraceIncrements(request);
 }
 
 // By each method with each accuracy, traced to its stop criterion.
@@ -27,6 +27,7 @@ void ForEachPath(const std::string& name, const std::function<void(const TracedP
       SCOPED_TRACE(std::string(ToString(method)) + ' ' + std::string(ToString(accuracy)));
       const TracedPath path = TraceData(name, method, accuracy);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      ExpectNoFindings(path);
       expect(path);
     }
 }
@@ -77,6 +78,7 @@ TEST(Sizes, VeryRoughFloor) {
       const TracedPath path = TraceData("very_rough_floor", method, accuracy);
       if (method == Method::kBranch) {
         EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+        ExpectNoFindings(path);
         const double most = sliding_bar::kEA * (1.0 / sliding_bar::kHeight - 1.0 / sliding_bar::kRestLength);
         EXPECT_NEAR(LargestLoadFactor(path) / kFriction, most * sliding_bar::kHeight, 1e-12);
         EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kSmoothLimit).size(), 1U);
@@ -104,6 +106,7 @@ TEST(Sizes, ContactThatIsSoftAcrossAndStiffAlong) {
     SCOPED_TRACE(ToString(accuracy));
     const TracedPath path = TraceData("soft_across_stiff_along", Method::kBranch, accuracy);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNoFindings(path);
     for (const Increment& increment : path.increments) {
       const double lifted = PositionY(path, increment, "c") - 1.0;
       EXPECT_NEAR(increment.contacts[0].gap, std::max(lifted, 0.0), kRounding);
@@ -118,6 +121,7 @@ TEST(Sizes, ContactThatIsSoftInAllDirections) {
     SCOPED_TRACE(ToString(accuracy));
     const TracedPath path = TraceData("soft_support", Method::kBranch, accuracy);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNoFindings(path);
     for (const Increment& increment : path.increments) {
       const double x_c = PositionX(path, increment, "c"), y_c = PositionY(path, increment, "c");
       const double pressed = std::max(1.0 - y_c, 0.0), x = std::max(x_c - kFriction * pressed, 0.0);

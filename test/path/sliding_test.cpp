@@ -14,7 +14,8 @@ namespace {
 TracedPath Pushed(double w, double h, bool wall_first, AtLimit at_limit) {
   TraceRequest request;
   Scene& scene = request.scene;
-  scene = BoxOnFloor(1.0, 1.0, 0.4, w);
+  scene = BoxOnFloor(1.0, 1.0, 0.4);
+  scene.loads = {WeightOf("box", w)};
   scene.nodes.push_back(NodeOf("box", "t", -0.5, h));
   scene.nodes.push_back(NodeOf("box", "n", 0.5, 0.4));
   scene.obstacles.push_back({"wall", ObstacleShape::kHalfPlane, 1.5, 0.0, -1.0, 0.0});
@@ -55,7 +56,8 @@ TEST(Sliding, ABlockIsPushedToAWall) {
 TEST(Sliding, ABlockOnATiltedFloor) {
   TraceRequest request;
   Scene& scene = request.scene;
-  scene = BoxOnFloor(1.0, 0.5, 0.4, 2.0);
+  scene = BoxOnFloor(1.0, 0.5, 0.4);
+  scene.loads = {WeightOf("box", 2.0)};
   scene.nodes.push_back(NodeOf("box", "n", -0.5, 0.3));
   scene.obstacles.push_back({"stop", ObstacleShape::kHalfPlane, -2.0, 0.0, 1.0, 0.0});
   scene.contacts.push_back({"n", "stop"});
@@ -99,11 +101,11 @@ TEST(Sliding, ABoxThatIsTied) {
   for (const double up : {-0.3, -0.1, 0.0, 0.1, 0.3})
     for (const double EA : {0.5, 46.0, 1e4}) {
       SCOPED_TRACE(testing::Message() << up << " " << EA);
-      Scene scene = BoxOnFloor(0.6, 0.5, 0.2, 0.7);
+      Scene scene = BoxOnFloor(0.6, 0.5, 0.2);
       scene.nodes.push_back(NodeOf("box", "ring", -0.3, 0.1));
       scene.nodes.push_back({"wall", -1.5, 0.1 + up, true, true});
       scene.tendons = {{"", {"wall", "ring"}, EA}};
-      scene.loads.push_back({"ring", 1.0, 0.0});
+      scene.loads = {WeightOf("box", 0.7), {"ring", 1.0, 0.0}};
       const TracedPath path = TraceUntil({"load_factor", ">", 0.2}, scene);
       // The rope takes what friction, 0.14, does not.
       if (up == 0.0) {

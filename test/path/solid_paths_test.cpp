@@ -27,8 +27,15 @@ TraceRequest Block(int nx, int ny, double width, double height, int nodes,
   return request;
 }
 
-void ExpectAllHaveStates(const TracedPath& path) {
-  EXPECT_EQ(VerifyPath(path.request, path.increments).full_increments, static_cast<int>(path.increments.size()));
+// To this end, and proved with the state of each increment.
+TracedPath TraceFully(const TraceRequest& request, EndReason end = EndReason::kStopCriterion) {
+  TracedPath path = TraceIncrements(request);
+  ExpectEnd(path, end);
+  const Verification verification = VerifyPath(path.request, path.increments);
+  for (const Finding& finding : verification.findings)
+    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  EXPECT_EQ(verification.full_increments, static_cast<int>(path.increments.size()));
+  return path;
 }
 
 // A uniform block in plane stress, pressed between plates without friction: uniaxial stress. Of the neo-Hookean
@@ -44,8 +51,7 @@ TEST(SolidPaths, CompressedBlock) {
     }
     request.options.step = 0.2;
     request.options.stop = {{"load_factor", ">", 0.5}};
-    const TracedPath path = TraceProved(request);
-    ExpectAllHaveStates(path);
+    const TracedPath path = TraceFully(request);
     const double l = 1.0 - path.increments.back().load_factor, mu = 10.0 / 2.6, lambda = 2.0 * mu * 0.3 / 0.4;
     double k = 1.0;
     for (int i = 0; i < 100; ++i)
@@ -67,8 +73,7 @@ TEST(SolidPaths, CantileverBlock) {
     TraceRequest request = ReadExample("cantilever_block");
     request.options.method = method;
     if (method == Method::kMpec) request.options.step = 0.5;
-    const TracedPath path = TraceProved(request);
-    ExpectAllHaveStates(path);
+    const TracedPath path = TraceFully(request);
     // Between the last two increments, at load factor 10.
     const Increment &before = path.increments[path.increments.size() - 2], &last = path.increments.back();
     const double share = (10.0 - before.load_factor) / (last.load_factor - before.load_factor);
@@ -101,8 +106,7 @@ TEST(SolidPaths, BlockOnARoughFloor) {
       request.options.max_increments = 400;
       request.options.stop = {{"8_0.x", ">", 2.3}};
       if (method == Method::kMpec) request.options.step = 0.02;
-      const TracedPath path = TraceProved(request);
-      ExpectAllHaveStates(path);
+      const TracedPath path = TraceFully(request);
       const Increment& last = path.increments.back();
       EXPECT_NEAR(last.load_factor, 0.5, 1e-6);
       double tangential = 0.0;
@@ -120,11 +124,10 @@ TEST(SolidPaths, EndsWhereAnElementTurnsInsideOut) {
     if (node.x == 1.0) node.fixed_x = false;
     if (node.x == 2.0) request.scene.support_motions.push_back({node.name, -1.0, 0.0});
   }
-  const TracedPath path = TraceIncrements(request);
+  const TracedPath path = TraceFully(request, EndReason::kElementInverted);
   ExpectEnd(path, EndReason::kElementInverted, " of solids[0] (block) turns inside out: its area has shrunk to ");
   EXPECT_EQ(path.result.message.find("element "), 0u);
   EXPECT_GT(path.increments.size(), 5u);
-  ExpectAllHaveStates(path);
 }
 
 // Elements of few nodes in a nearly incompressible material.
@@ -152,11 +155,9 @@ TEST(SolidPaths, MethodsAgree) {
   request.scene.loads = {{"6_6", 0.1, -0.2}};
   request.options.stop = {{"6_6.y", "<", 0.9}};
   request.options.step = 0.02;
-  const TracedPath branch = TraceProved(request);
+  const TracedPath branch = TraceFully(request);
   request.options.method = Method::kMpec;
-  const TracedPath mpec = TraceProved(request);
-  ExpectAllHaveStates(branch);
-  ExpectAllHaveStates(mpec);
+  const TracedPath mpec = TraceFully(request);
   const auto load_at = [](const TracedPath& path, double y) {
     const std::size_t n = path.increments.size();
     const double a = PositionY(path, path.increments[n - 2], "6_6"), b = PositionY(path, path.increments[n - 1], "6_6");
@@ -168,8 +169,7 @@ TEST(SolidPaths, MethodsAgree) {
 
 // Half a cylinder on a rigid plane: half-width and pressure of Hertz within the mesh's error.
 TEST(SolidPaths, Hertz) {
-  const TracedPath path = TraceProved(ReadExample("hertz"));
-  ExpectAllHaveStates(path);
+  const TracedPath path = TraceFully(ReadExample("hertz"));
   const Increment& last = path.increments.back();
   const double P = last.load_factor, pi = 3.14159265358979323846;
   const double a = std::sqrt(4.0 * P * (1.0 - 0.09) / pi), p0 = 2.0 * P / (pi * a);
@@ -197,8 +197,7 @@ TEST(SolidPaths, Hertz) {
 
 // Pressed and dragged until all that touches slips: then H = mu V.
 TEST(SolidPaths, RubberFoot) {
-  const TracedPath path = TraceProved(ReadExample("rubber_foot"));
-  ExpectAllHaveStates(path);
+  const TracedPath path = TraceFully(ReadExample("rubber_foot"));
   double V = 0.0, H = 0.0;
   for (const ContactRecord& contact : path.increments.back().contacts) {
     V += contact.rn;

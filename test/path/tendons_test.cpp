@@ -27,7 +27,7 @@ TEST(Tendons, AnEyeSlidesAlongARope) {
     scene.loads = {{"eye", 0.0, -1.0, true}, {"eye", 1.0, 0.0}};
     request.options.stop = {{"eye.x", ">", 0.6}};
     request.options.record = {"sections"};
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceTo(request);
     for (const Increment& increment : path.increments) {
       const double x = increment.positions[2], y = increment.positions[3];
       const double left = std::hypot(x + 1.0, y), right = std::hypot(x - 1.0, y);
@@ -73,7 +73,7 @@ TEST(Tendons, AreTheSameInOtherWords) {
   scene.loads = {LoadOnBody("load", 0.0, -1.0, true), LoadOnBody("load", 0.4, 0.0, false, 0.2)};
   scene.superelements = {{{"one"}, {0.3, 0.0, 0.0, 0.3}}};
   request.options.stop = {{"load_factor", ">", 1.0}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceTo(request);
   EXPECT_EQ(path.increments.front().bars[0], BarState::kTaut);
   ExpectSameInOtherWords(request, path, kSame);
 }

@@ -85,7 +85,8 @@ TEST(Trace, EveryIncrementNamesTheMethodOfTheRequest) {
 TEST(Trace, StopCriterionHoldsInTheLastIncrementAndInNoneBefore) {
   TraceRequest request = SlidingBar(0);
   request.options.stop = {{"load_factor", ">", 1.0}};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceIncrements(request);
+  ExpectEnd(path, EndReason::kStopCriterion);
   EXPECT_EQ(path.result.message, "load_factor > 1");
   ASSERT_GE(path.increments.size(), 3u);
   EXPECT_NEAR(path.increments.back().load_factor, 1.0, 1e-12);

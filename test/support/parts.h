@@ -26,6 +26,12 @@ inline Load LoadOnGroup(const std::string& group, double px, double py, bool con
   return load;
 }
 
+inline Load WeightOf(const std::string& body, double weight) {
+  Load load = LoadOnBody(body, 0.0, 0.0, true);
+  load.by = -weight;
+  return load;
+}
+
 inline Node NodeOf(const std::string& body, const std::string& name, double x, double y) {
   return {name, x, y, false, false, false, body};
 }
@@ -87,16 +93,14 @@ inline Scene NodeOnFloor(const std::string& node, double stiffness, double frict
   return scene;
 }
 
-// The body "box" stands on the obstacle "floor" with the nodes "l" and "r", so far apart, and has this weight, which
-// acts so high above their middle.
-inline Scene BoxOnFloor(double width, double height, double friction, double weight) {
+// The body "box" stands on the obstacle "floor" with the nodes "l" and "r", so far apart; its reference point is so
+// high above their middle. Without loads.
+inline Scene BoxOnFloor(double width, double height, double friction) {
   Scene scene;
   scene.bodies = {{"box", 0.0, height}};
   scene.nodes = {NodeOf("box", "l", -0.5 * width, 0.0), NodeOf("box", "r", 0.5 * width, 0.0)};
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
   scene.contacts = {{"l", "floor"}, {"r", "floor"}};
-  scene.loads = {LoadOnBody("box", 0.0, 0.0, true)};
-  scene.loads[0].by = -weight;
   return scene;
 }
 

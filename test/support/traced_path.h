@@ -44,16 +44,16 @@ void ExpectNoFindings(const TracedPath& path);
 TracedPath TraceVerified(const TraceRequest& request,
                          double largest_residual = std::numeric_limits<double>::infinity());
 
-// All increments of a request whose path ends for this reason, with this part of a message, and is proved. The request
-// of the path has the nodes and contacts of beams and groups by name.
-TracedPath TraceProved(const TraceRequest& request, EndReason end = EndReason::kStopCriterion,
-                       const std::string& message = "");
+// The same of a path that ends for this reason, with this part of a message.
+TracedPath TraceTo(const TraceRequest& request, EndReason end = EndReason::kStopCriterion,
+                   const std::string& message = "");
+TracedPath TraceTo(const TraceRequest& request, EndReason end, double largest_residual);
 
-// The same with residuals up to this bound; by default to a stop criterion or the end of a program.
-TracedPath TraceProved(const TraceRequest& request, EndReason end, double largest_residual);
-TracedPath TraceProved(const TraceRequest& request, double largest_residual);
+// The same to a stop criterion or the end of a program. The request of the path has the nodes and contacts of beams and
+// groups by name.
+TracedPath TraceProved(const TraceRequest& request, double largest_residual = std::numeric_limits<double>::infinity());
 
-// The same of a scene by default options, to this criterion.
+// A scene by default options, proved to this criterion.
 TracedPath TraceUntil(const StopCriterion& stop, const Scene& scene);
 
 // Each accuracy of a request: the path ends for this reason and is proved, with residuals up to this bound, and is as
@@ -68,7 +68,7 @@ TracedPath ResumeAfter(std::size_t count, const TracedPath& path);
 std::vector<Increment> Thinned(const TracedPath& path, int every);
 
 // The path ends for this reason, with this part of a message.
-void ExpectEnd(const TracedPath& path, EndReason end, const std::string& message);
+void ExpectEnd(const TracedPath& path, EndReason end, const std::string& message = "");
 
 // At most so many increments of a scene, by default options.
 TracedPath TraceScene(const Scene& scene, int increments);
@@ -106,7 +106,7 @@ const Increment& FirstThat(const TracedPath& path, Predicate is_so) {
 // The stage must have increments.
 const Increment& LastOfStage(const TracedPath& path, int stage);
 
-// Of positions, load factor, gaps and reactions; the states of the contacts are the same.
+// Of positions, load factor and reactions; the states of the contacts are the same.
 double LargestDifference(const Increment& a, const Increment& b);
 
 // Starts of stages, limit points, events, bifurcations, onsets of instability and jumps.
