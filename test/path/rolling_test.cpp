@@ -35,7 +35,7 @@ TEST(Rolling, ADiscRollsUntilItSlips) {
       scene.obstacles.push_back(Floor(0.9));
       scene.contacts = {Rolls("rim_disc", "floor")};
       scene.contacts[0].friction = friction;
-      scene.loads = {LoadOnBody("disc", 0.0, -1.0, true), LoadOnBody("disc", 0.0, 0.0, false, -radius)};
+      scene.loads = {WeightOf("disc", 1.0), LoadOnBody("disc", 0.0, 0.0, false, -radius)};
       const TracedPath path = TraceVerified(RequestWithin(60, scene));
       for (const Increment& increment : path.increments) {
         const double x = increment.positions[0] / radius;
@@ -61,7 +61,7 @@ TEST(Rolling, ADiscRollsRoundADrum) {
       scene.obstacles.push_back(Circle("drum", 0.0, 0.0, drum, 2.0));
       scene.obstacles.back().inside = inside;
       scene.contacts = {Rolls("rim_disc", "drum")};
-      scene.loads = {LoadOnBody("disc", 0.0, -1.0, true), LoadOnBody("disc", 0.0, 0.0, false, -0.5)};
+      scene.loads = {WeightOf("disc", 1.0), LoadOnBody("disc", 0.0, 0.0, false, -0.5)};
       const TracedPath path = TraceVerified(RequestWithin(20, scene));
       ASSERT_GT(path.increments.size(), 10U) << path.result.message;
       double farthest = 0.0;
@@ -91,7 +91,10 @@ TEST(Rolling, ThreeDiscsHoldByFriction) {
       scene.obstacles.push_back(Floor(of_floor * floor));
       scene.contacts = {Rolls("rim_a", "floor"), Rolls("rim_b", "floor"), Rolls("rim_a", "rim_b"),
                         Rolls("rim_c", "rim_a"), Rolls("rim_c", "rim_b")};
-      for (const RigidBody& body : scene.bodies) scene.loads.push_back(LoadOnBody(body.name, 0.0, -1.0));
+      for (const RigidBody& body : scene.bodies) {
+        scene.loads.push_back(WeightOf(body.name, 1.0));
+        scene.loads.back().constant = false;
+      }
       const TracedPath path = TraceVerified(RequestUntil({"load_factor", ">", 2.0}, scene));
       ASSERT_FALSE(path.increments.empty()) << path.result.message;
       if (holds)

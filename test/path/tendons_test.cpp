@@ -70,7 +70,7 @@ TEST(Tendons, AreTheSameInOtherWords) {
   scene.bodies = {{"load", 0.05, -1.8}};
   scene.nodes = {NodeOf("load", "one", -0.5, -0.9), NodeOf("load", "two", 0.6, -0.8), {"hook", 0.0, 0.0, true, true}};
   scene.tendons = {{"sling", {"one", "hook", "two"}, 50.0, 2.0}};
-  scene.loads = {LoadOnBody("load", 0.0, -1.0, true), LoadOnBody("load", 0.4, 0.0, false, 0.2)};
+  scene.loads = {WeightOf("load", 1.0), LoadOnBody("load", 0.4, 0.0, false, 0.2)};
   scene.superelements = {{{"one"}, {0.3, 0.0, 0.0, 0.3}}};
   request.options.stop = {{"load_factor", ">", 1.0}};
   const TracedPath path = TraceTo(request);
