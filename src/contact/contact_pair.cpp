@@ -214,14 +214,6 @@ int ContactPair::PatchOfTouching(int patch) const {
   return HasPatch(patch + 1) ? patch + 1 : patch - 1;
 }
 
-double ContactPair::Xi(const Eigen::VectorXd& u, double s, int patch) const {
-  return Law::Motion(kTangent, u, s, patch, {});
-}
-
-double ContactPair::FootXi(const Eigen::VectorXd& u, double s, int patch) const {
-  return Law::Motion(FootPort(), u, s, patch, {});
-}
-
 double ContactPair::Motion(std::size_t port, const Eigen::VectorXd& u, double s, int patch,
                            const PortReals& reference) const {
   return port == kNormal ? Gap(u, s, patch) - reference[kNormal] : Law::Motion(port, u, s, patch, reference);

@@ -6,9 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "contact_path/contact/contact_pair.h"
-#include "contact_path/geometry/surface.h"
-
 namespace contact_path {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "contact_path/contact/scene_contacts.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -8,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "contact_path/contact/deformable_pair.h"
 #include "contact_path/contact/rigid_pair.h"

@@ -102,12 +102,6 @@ std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::Vec
   return changes;
 }
 
-bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row) {
-  jacobian_ = structure_.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_) : system_.TransposedJacobian(x);
-  for (Eigen::Index i = 0; i < drag.size(); ++i) jacobian_.coeffRef(i, i) += drag[i];
-  return solver_.Factorize(jacobian_, row, system_.InFrame());
-}
-
 bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x,
                               int* iterations) {
   const Eigen::Index nd = system_.NumDofs();
@@ -118,7 +112,13 @@ bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd
     residual_.head(nd) += drag.cwiseProduct(at.head(nd) - anchor);
     strains_from_ = strains_to_;
     strains_to_ = at.head(nd + 1);
-    if (!residual_.allFinite() || (refresh && !Factorize(at, drag, row))) return false;
+    if (!residual_.allFinite()) return false;
+    if (refresh) {
+      jacobian_ =
+          structure_.Mixed() ? system_.MixedJacobian(at, strains_from_, strains_to_) : system_.TransposedJacobian(at);
+      for (Eigen::Index i = 0; i < drag.size(); ++i) jacobian_.coeffRef(i, i) += drag[i];
+      if (!solver_.Factorize(jacobian_, row, system_.InFrame())) return false;
+    }
     residual_ = -residual_;
     solver_.Solve(residual_, machine_.value - row.dot(at), step);
     return true;

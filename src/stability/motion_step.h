@@ -56,7 +56,6 @@ class MotionStepSolver {
 
   // From the values of *x.
   bool Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x, int* iterations);
-  bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row);
   std::vector<Change> Changes(const Eigen::VectorXd& x) const;
   // Other ports of a law that begins to act are measured from where its first motion is zero: by linear interpolation
   // of the step.

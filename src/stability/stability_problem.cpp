@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <memory>
 
 #include "contact_path/law/active_set_tolerance.h"
 #include "contact_path/stability/slip_stability.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
+namespace {
+
+Eigen::VectorXd Normalised(const Eigen::VectorXd& du) {
+  const double norm = du.norm();
+  return norm > 0.0 && std::isfinite(norm) ? Eigen::VectorXd(du / norm) : Eigen::VectorXd();
+}
+
+}  // namespace
 
 StabilityProblem::StabilityProblem(const Structure& structure, const Laws& laws)
     : structure_(structure), laws_(laws), system_(structure, laws) {}
@@ -146,11 +152,6 @@ bool StabilityProblem::Condense(const PathPoint& point) {
     artificial_.row(i) = -held_.Influence(w).transpose() * forces;
   }
   return true;
-}
-
-Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
-  const double norm = du.norm();
-  return norm > 0.0 && std::isfinite(norm) ? Eigen::VectorXd(du / norm) : Eigen::VectorXd();
 }
 
 double StabilityProblem::PossibleSense() const {

@@ -49,21 +49,19 @@ Number EvenStrain::EnergyOf(const std::vector<Number>& values) const {
   return AsNumber<Number>(0.5 * stiffness_) * Number(uneven * uneven);
 }
 
-void EvenStrain::Derive(const Eigen::VectorXd& x, const Eigen::VectorXd& v, Eigen::Ref<Eigen::MatrixXd> hessian,
-                        Eigen::MatrixXd* change) const {
+void EvenStrain::Derive(const Values& x, const Values* v, Eigen::Ref<Eigen::MatrixXd> out) const {
   const auto size = static_cast<int>(x.size());
   std::vector<Twice> values;
   values.reserve(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i) {
-    Along along(x[i], Eigen::Matrix<double, 1, 1>::Constant(v[i]));
+    Along along(x[i], Eigen::Matrix<double, 1, 1>::Constant(v != nullptr ? (*v)[i] : 0.0));
     values.emplace_back(Once(along, kMost, i), kMost, i);
   }
   const Twice energy = EnergyOf(values);
   for (int i = 0; i < size; ++i)
     for (int j = 0; j < size; ++j) {
       const Along& entry = energy.derivatives()[i].derivatives()[j];
-      hessian(i, j) = entry.value();
-      if (change != nullptr) (*change)(i, j) = entry.derivatives()[0];
+      out(i, j) = v != nullptr ? entry.derivatives()[0] : entry.value();
     }
 }
 
@@ -80,14 +78,10 @@ void EvenStrain::Force(const Values& x, Eigen::Ref<Eigen::VectorXd> force) const
   force = EnergyOf(values).derivatives().head(size);
 }
 
-void EvenStrain::Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
-  Derive(x, Eigen::VectorXd::Zero(x.size()), tangent, nullptr);
-}
+void EvenStrain::Tangent(const Values& x, Eigen::Ref<Eigen::MatrixXd> tangent) const { Derive(x, nullptr, tangent); }
 
 void EvenStrain::TangentDerivative(const Values& x, const Values& v, Eigen::Ref<Eigen::MatrixXd> derivative) const {
-  Eigen::MatrixXd hessian(x.size(), x.size()), change(x.size(), x.size());
-  Derive(x, v, hessian, &change);
-  derivative = change;
+  Derive(x, &v, derivative);
 }
 
 }  // namespace contact_path

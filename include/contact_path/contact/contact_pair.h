@@ -81,10 +81,12 @@ class ContactPair : public Law {
   // Slip by the total law, since the start of the program: xi - xi_0. 0 by the incremental law.
   double Slipped(const Eigen::VectorXd& u, double s, int patch) const;
   // xi, measured from 0.
-  double Xi(const Eigen::VectorXd& u, double s, int patch) const;
+  double Xi(const Eigen::VectorXd& u, double s, int patch) const { return Law::Motion(kTangent, u, s, patch, {}); }
   // Where the foot is on the surface, as RangeOf() counts: xi, unless a circle rolls.
   std::size_t FootPort() const { return surface_traits_.rolls ? kFoot : kTangent; }
-  double FootXi(const Eigen::VectorXd& u, double s, int patch) const;
+  double FootXi(const Eigen::VectorXd& u, double s, int patch) const {
+    return Law::Motion(FootPort(), u, s, patch, {});
+  }
 
   // The gap, 0 where it is closed by a tension.
   virtual double GapOnRecord(const Eigen::VectorXd& u, double s, int patch) const { return Gap(u, s, patch); }

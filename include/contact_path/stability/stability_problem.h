@@ -89,7 +89,6 @@ class StabilityProblem {
   bool Condense(const PathPoint& point);
   // The sense in which the slips of the null direction are those of the contacts; 0: in none.
   double PossibleSense() const;
-  Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
 
   const Structure& structure_;
   const Laws& laws_;

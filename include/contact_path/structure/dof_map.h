@@ -33,20 +33,34 @@ class DofMap {
     int dof = -1;  // unknown; -1 = held
   };
 
-  explicit DofMap(std::size_t num_nodes);
+  explicit DofMap(std::size_t num_nodes) : index_(num_nodes) {
+    for (auto& slots : index_) slots.fill(-1);
+  }
 
   // Gives a node a value that it does not have yet. Returns its unknown, or -1 if it is held.
-  int Add(int node, Field field, int component, bool held);
+  int Add(int node, Field field, int component, bool held) {
+    const int dof = held ? -1 : static_cast<int>(num_dofs_++);
+    index_[static_cast<std::size_t>(node)][Slot(field, component)] = static_cast<int>(components_.size());
+    components_.push_back({node, field, component, dof});
+    return dof;
+  }
 
   Eigen::Index NumDofs() const { return num_dofs_; }
   // The unknown; -1 if the value is held or the node has none.
-  int Dof(int node, Field field, int component) const;
+  int Dof(int node, Field field, int component) const {
+    const int index = Index(node, field, component);
+    return index < 0 ? -1 : components_[static_cast<std::size_t>(index)].dof;
+  }
   // The value among Components(); -1 if the node has none.
-  int Index(int node, Field field, int component) const;
+  int Index(int node, Field field, int component) const {
+    return index_[static_cast<std::size_t>(node)][Slot(field, component)];
+  }
   const std::vector<Component>& Components() const { return components_; }
 
  private:
-  static std::size_t Slot(Field field, int component);
+  static std::size_t Slot(Field field, int component) {
+    return static_cast<std::size_t>(field == Field::kPosition ? component : kPositionComponents);
+  }
 
   std::vector<std::array<int, kMostNodeComponents>> index_;  // by node and slot: into components_, or -1
   std::vector<Component> components_;

@@ -49,9 +49,8 @@ class EvenStrain : public Element {
  private:
   template <typename Number>
   Number EnergyOf(const std::vector<Number>& values) const;
-  // Of the energy along x + h v at h = 0: the Hessian, and its change with h.
-  void Derive(const Eigen::VectorXd& x, const Eigen::VectorXd& v, Eigen::Ref<Eigen::MatrixXd> hessian,
-              Eigen::MatrixXd* change) const;
+  // The Hessian of the energy, or with v its change with h along x + h v at h = 0.
+  void Derive(const Values& x, const Values* v, Eigen::Ref<Eigen::MatrixXd> out) const;
 
   double stiffness_;
   Piece before_, behind_;
