@@ -54,6 +54,7 @@ class ContactPair : public Law {
   // the last one.
   int PatchAt(const Eigen::VectorXd& u, double s) const { return PatchAfter(u, s, kNearestPatch); }
   // PatchAt(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
+  // This function, HasPatch() and RangeOf() are by default those of one patch without ends.
   virtual int PatchAfter(const Eigen::VectorXd& /*u*/, double /*s*/, int /*from*/) const { return 0; }
   // `patch` itself, or the nearest patch where `patch` is kNearestPatch.
   int KnownPatch(const Eigen::VectorXd& u, double s, int patch) const {

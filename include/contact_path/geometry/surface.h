@@ -89,7 +89,7 @@ class Surface {
   virtual bool Seamless() const { return false; }
   virtual int NumPatches() const { return 1; }  // of one round
   virtual XiRange RangeOf(int /*patch*/) const { return {}; }
-  // Of a closed curve a patch of the first round, 0 to NumPatches() - 1.
+  // Of a closed curve a patch of the first round, 0 to NumPatches() - 1. By default that of one patch without ends.
   virtual NearestFoot Nearest(const Eigen::Vector2d& x) const { return {0, std::abs(Project(x, 0).gap), false}; }
   // Nearest(), found faster where the foot is on the patch `near` or not far from it. near: a patch of the first round;
   // -1 = not known.
