@@ -38,6 +38,7 @@ double SumOfLoads(const Stage& stage, const Scene& scene, const SceneIndex& inde
 // stage that is on, its target less what stages that unload have taken back.
 template <typename Visit>
 void ForEachStageBefore(const std::vector<Stage>& program, std::size_t stage, Visit&& visit) {
+  if (program.empty()) return;
   std::vector<double> shares(stage, 0.0);
   double left = 1.0;
   for (std::size_t i = stage; i-- > 0;) {
@@ -144,7 +145,10 @@ std::vector<Motion> TakenBack(const std::vector<Stage>& program, std::size_t sta
     if (share == 0.0) return;
     for (const Motion& motion : before.*list) {
       const auto [at, is_new] = places.emplace(motion.*name, sums.size());
-      if (is_new) sums.push_back(Times(0.0, motion));
+      if (is_new) {
+        sums.push_back(motion);
+        for (double* const number : NumbersOf(&sums.back())) *number = 0.0;
+      }
       Motion part = Times(-share, motion);
       const auto sum = NumbersOf(&sums[at->second]), more = NumbersOf(&part);
       for (std::size_t i = 0; i < sum.size(); ++i) *sum[i] += *more[i];

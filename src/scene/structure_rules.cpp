@@ -90,7 +90,8 @@ class StructureRules {
  private:
   void CheckBodyOf(const KeyPath& path, const Node& node) {
     if (node.body.empty()) return;
-    if (node.body == node.name) checker_.Add(path.Key("body"), node.body, "must name a body of the scene");
+    if (checker_.KnownNode(node.body) == &node)
+      checker_.Add(path.Key("body"), node.body, "must name a body of the scene");
     checker_.CheckBody(path, node.body);
     for (const auto& [name, fixed] : {std::pair("fixed_x", node.fixed_x), std::pair("fixed_y", node.fixed_y),
                                       std::pair("fixed_rotation", node.fixed_rotation)})
