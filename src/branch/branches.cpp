@@ -121,24 +121,19 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   Modes natural;
   std::vector<int> weakly_active;
   double combinations = 1.0;
-  bool between_pieces = false, between_rigid = false;
+  bool between_pieces = false;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     options.push_back(laws.ModesAt(point, i, tolerance));
     natural.push_back({options[i].front().state, point.modes[i].piece});
     const int piece = laws[i].Known(point.u, point.s, point.modes[i]).piece;
-    for (const Mode& option : options[i]) {
-      if (option.piece == piece) continue;
-      between_pieces = true;
-      between_rigid = between_rigid || !laws[i].Compliant();
-    }
+    for (const Mode& option : options[i]) between_pieces = between_pieces || option.piece != piece;
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
   }
   result.weakly_active = static_cast<int>(weakly_active.size());
   BranchFinder finder(structure, laws, point, options, arrival, tolerance, cancelled);
-  // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
-  // pieces of a rigid law meet, whose curvatures differ. Compliant laws pass from piece to piece all the time: then
-  // there is a problem for each combination of pieces.
+  // Where another path crosses, rates are not unique, and every combination is looked at as a whole. Where pieces meet,
+  // whose curvatures differ, there is a problem for each combination of pieces.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
@@ -149,11 +144,10 @@ BranchSet BranchesWithForces(const Structure& structure, const Laws& laws, const
   const bool condenses = solves && weakly_active.size() <= kMostCondensedLaws && entries <= kMostCondensed;
   if (condenses && !between_pieces) problem.emplace(structure, laws, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
-  // Curvatures of pieces differ.
   std::map<std::vector<int>, const RateProblem> on_pieces;
   const auto excluded = [&](const Modes& modes) {
     if (!between_pieces) return condensed != nullptr && finder.Excluded(StatesOf(modes), *condensed);
-    if (!condenses || between_rigid) return false;
+    if (!condenses) return false;
     Modes there = natural;
     std::vector<int> pieces;
     for (std::size_t i = 0; i < modes.size(); ++i) pieces.push_back(there[i].piece = modes[i].piece);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <set>
 #include <utility>
@@ -35,14 +34,10 @@ SlackBar::SlackBar(std::vector<BarSpan> spans, const Windings& windings, double 
       sense_(sense == BarSense::kTension ? 1.0 : -1.0),
       strain_(strain) {
   Traits traits;
-  std::set<int> dofs;
-  for (const auto& [span, rolled] : spans_) dofs.insert(span.Dofs().begin(), span.Dofs().end());
-  for (const Winding& winding : windings_)
-    if (winding.turn.dof >= 0) dofs.insert(winding.turn.dof);
-  for (const int dof : dofs) traits.dofs.push_back(dof);
+  traits.dofs = DofsOf(spans_, windings_, {});
   const auto moves = [&](int dof) {  // -1: the load factor
-    traits.moves[0][dof < 0 ? dofs.size() : static_cast<std::size_t>(std::distance(dofs.begin(), dofs.find(dof)))] =
-        true;
+    traits.moves[0][static_cast<std::size_t>(std::find(traits.dofs.begin(), traits.dofs.end(), dof) -
+                                             traits.dofs.begin())] = true;
   };
   bool affine = true;
   for (const auto& [span, rolled] : spans_) {
@@ -75,6 +70,17 @@ SlackBar::SlackBar(const BarSpan& span, const Windings& windings, double EA, dou
   for (std::size_t k = 0; k <= dofs.size(); ++k) traits.moves[0][k] = true;
   traits.largest_reach_rate = std::numeric_limits<double>::infinity();
   SetBar(traits);
+}
+
+LawDofs SlackBar::DofsOf(const std::vector<BarSpan>& spans, const Windings& windings,
+                         const std::array<Coordinate, 2>& others) {
+  std::set<int> dofs;
+  for (const auto& [span, rolled] : spans) dofs.insert(span.Dofs().begin(), span.Dofs().end());
+  for (const Coordinate& of : {others[0], others[1], windings[0].turn, windings[1].turn})
+    if (of.dof >= 0) dofs.insert(of.dof);
+  LawDofs sorted;
+  for (const int dof : dofs) sorted.push_back(dof);
+  return sorted;
 }
 
 void SlackBar::SetBar(Traits traits) {

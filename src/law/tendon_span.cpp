@@ -2,31 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <utility>
 
 #include "contact_path/scene/tendon_route.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 
-namespace {
-
-LawDofs DofsOf(const MovingPlace& span, const Windings& windings, const std::array<Coordinate, 2>& slides) {
-  std::set<int> dofs(span.Dofs().begin(), span.Dofs().end());
-  for (const Coordinate& of : {slides[0], slides[1], windings[0].turn, windings[1].turn})
-    if (of.dof >= 0) dofs.insert(of.dof);
-  LawDofs sorted;
-  for (const int dof : dofs) sorted.push_back(dof);
-  return sorted;
-}
-
-}  // namespace
-
 TendonSpan::TendonSpan(const BarSpan& span, const Windings& windings, double EA, double rest_length,
                        const Coordinate& first, const Coordinate& second)
-    : SlackBar(span, windings, EA, rest_length, DofsOf(span.apart, windings, {first, second})),
-      slides_{first, second} {}
+    : SlackBar(span, windings, EA, rest_length, DofsOf({span}, windings, {first, second})), slides_{first, second} {}
 
 LawVector TendonSpan::RestGradient(const LawDofs& dofs) const {
   LawVector gradient = LawVector::Zero(static_cast<Eigen::Index>(dofs.size()) + 1);

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_TEST_BRANCH_TOY_EQUATIONS_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -36,6 +37,7 @@ class ToyEquations : public ArcEquations {
     std::function<Along(const Unknowns&)> of;
     bool of_rate = false;
     bool near = false;  // an increment is wanted at its zero, and nothing fails
+    double seen_below = std::numeric_limits<double>::infinity();  // a step that starts at more does not know of it
   };
 
   ToyEquations(Eigen::Index unknowns, std::function<Unknowns(const Unknowns&)> F, std::vector<Watched> limits = {})
@@ -61,12 +63,18 @@ class ToyEquations : public ArcEquations {
     return Column(F_(At(x, dx)), &Along::second);
   }
 
-  std::vector<Limit> LimitsInReach(const Eigen::VectorXd& /*x*/, double /*reach*/, std::vector<Limit>* near) override {
+  std::vector<Limit> LimitsInReach(const Eigen::VectorXd& x, double /*reach*/, std::vector<Limit>* near) override {
     near->clear();
+    unseen_.clear();
     std::vector<Limit> all;
-    for (std::size_t i = 0; i < limits_.size(); ++i)
-      (limits_[i].near ? near : &all)->push_back({static_cast<int>(i), 0});
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      const Limit limit = {static_cast<int>(i), 0};
+      (Value(limit, x) > limits_[i].seen_below ? &unseen_ : limits_[i].near ? near : &all)->push_back(limit);
+    }
     return all;
+  }
+  bool BeyondReach(const Eigen::VectorXd& x) const override {
+    return std::any_of(unseen_.begin(), unseen_.end(), [&](const Limit& limit) { return Value(limit, x) < 0.0; });
   }
   bool IsOfRate(const Limit& limit) const override { return Of(limit).of_rate; }
   double Value(const Limit& limit, const Eigen::VectorXd& x) const override {
@@ -104,6 +112,7 @@ class ToyEquations : public ArcEquations {
   const Eigen::Index unknowns_;
   const std::function<Unknowns(const Unknowns&)> F_;
   const std::vector<Watched> limits_;
+  std::vector<Limit> unseen_;
   Eigen::SparseMatrix<double> transposed_;
 };
 

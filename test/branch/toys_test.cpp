@@ -247,6 +247,14 @@ TEST(Toys, AFunctionAtWhoseZeroAnIncrementIsWanted) {
   EXPECT_LT(walk.at().x[0], 0.02 + 1e-8);
 }
 
+// A shorter step sees the limit that the first one leapt over.
+TEST(Toys, ALimitThatIsOutOfSightAtTheStart) {
+  Walk walk(Line({{[](const Unknowns& x) { return 0.05 - x[0]; }, false, false, 0.03}}), Vector2d(0.0, 0.0),
+            Vector2d(1.0, 1.0));
+  ASSERT_EQ(walk.ToEvent().event.Kind(), EventKind::kContactEvent);
+  EXPECT_NEAR(walk.at().x[0], 0.05, 1e-12);
+}
+
 // A limit that fails next to where the load turns is what to act on.
 TEST(Toys, ALimitNextToAFold) {
   ToyEquations toy(2, [](const Unknowns& x) { return Unknowns{x[0] * x[0] + x[1]}; },

@@ -116,7 +116,7 @@ TEST(SlackBar, IsTheElementWhereItIsTaut) {
       PortsAt at;
       law.Evaluate(u, 0.0, 0, {}, &at);
       EXPECT_LE((at[0].gradient.head(4) * forces[0] + force).norm(), 1e-15);
-      EXPECT_NEAR(law.Energy(kTaut, forces), element.Energy(u), 1e-15);
+      EXPECT_NEAR(law.EnergyAt(u, 0.0, kTaut, forces), element.Energy(u), 1e-15);
       Eigen::MatrixXd tangent(4, 4), derivative(4, 4);
       element.Tangent(u, tangent);
       const Eigen::MatrixXd of_law = 1.7 / 0.8 * at[0].gradient.head(4) * at[0].gradient.head(4).transpose() -

@@ -63,6 +63,9 @@ class SlackBar : public Law {
  protected:
   // A tendon of one span with motions of its own, which every entry of `dofs` changes.
   SlackBar(const BarSpan& span, const Windings& windings, double EA, double rest_length, const LawDofs& dofs);
+  // Of all that it depends on; others: besides spans and windings.
+  static LawDofs DofsOf(const std::vector<BarSpan>& spans, const Windings& windings,
+                        const std::array<Coordinate, 2>& others);
   const MovingPlace& Span() const { return spans_.front().apart; }
   const RolledSpan& Rolled() const { return spans_.front().rolled; }
   double RestLength() const { return rest_length_; }
