@@ -44,13 +44,14 @@ std::vector<std::array<double, 5>> Sections(const std::vector<std::unique_ptr<co
 }
 
 std::vector<ContactEdge> ContactEdges(const std::vector<std::unique_ptr<const Element>>& elements,
-                                      const std::vector<ContactPlace>& contacts) {
+                                      const std::vector<std::unique_ptr<const Contact>>& contacts,
+                                      const std::vector<std::size_t>& boundary_of) {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> contact_of;  // by boundary and node
-  std::set<std::size_t> boundaries, touching;
+  const std::set<std::size_t> boundaries(boundary_of.begin(), boundary_of.end());
+  std::set<std::size_t> touching;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    contact_of.emplace(std::pair(contacts[i].boundary, contacts[i].node), i);
-    boundaries.insert(contacts[i].boundary);
-    touching.insert(contacts[i].node);
+    contact_of.emplace(std::pair(boundary_of[i], contacts[i]->Node()), i);
+    touching.insert(contacts[i]->Node());
   }
   std::vector<std::vector<std::size_t>> edges_of_beams;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::vector<std::size_t>>> sides;  // by their ends

@@ -35,8 +35,7 @@ void AttachedNodes::GiveToBodies(const std::vector<double>& values, std::vector<
     const Vector force{std::exchange(all[2 * at.node], 0.0L), std::exchange(all[2 * at.node + 1], 0.0L)},
         arm = NodePosition(values, at.node) - NodePosition(values, at.body);
     AddTo(forces, at.body, force);
-    all[num_positions_ + at.body] +=
-        arm.x * force.y - arm.y * force.x + std::exchange(all[num_positions_ + at.node], 0.0L);
+    all[num_positions_ + at.body] += Cross(arm, force) + std::exchange(all[num_positions_ + at.node], 0.0L);
   }
 }
 

@@ -17,7 +17,6 @@ class AttachedNodes {
   // scene: expanded.
   AttachedNodes(const Scene& scene, const NodeNumbers& numbers);
 
-  bool Empty() const { return nodes_.empty(); }
   // The state with each of these nodes where its body has it.
   CheckedState Settled(CheckedState state) const;
   // Takes the forces on these nodes to their bodies. values and forces: as ValuesOf() orders them.

@@ -23,43 +23,30 @@ constexpr BoundaryPatch::Weights kToAxis = {{{0.5L, -0.5L, 0.125L}, {0.5L, 0.5L,
 
 // A number with its derivatives by the positions of a node and of the three nodes of a patch.
 using PlaceGradient = Eigen::Matrix<Real, 8, 1>;
-using VariableDual = Eigen::AutoDiffScalar<PlaceGradient>;
-
-struct DualVector {
-  VariableDual x, y;
-};
+using PlaceDual = Eigen::AutoDiffScalar<PlaceGradient>;
+using DualVector = VectorOf<PlaceDual>;
 
 DualVector VariableAt(const Vector& place, int number) {
-  return {VariableDual(place.x, PlaceGradient::SizeAtCompileTime, number),
-          VariableDual(place.y, PlaceGradient::SizeAtCompileTime, number + 1)};
+  constexpr int kCount = PlaceGradient::SizeAtCompileTime;
+  return {PlaceDual(place.x, kCount, number), PlaceDual(place.y, kCount, number + 1)};
 }
 
-VariableDual DualDot(const DualVector& a, const DualVector& b) { return a.x * b.x + a.y * b.y; }
-
-// sum of factors[j] x_j.
-DualVector Combined(const BoundaryPatch::PerNode<VariableDual>& factors,
-                    const BoundaryPatch::PerNode<DualVector>& nodes) {
-  DualVector sum = {factors[0] * nodes[0].x, factors[0] * nodes[0].y};
-  for (std::size_t j = 1; j < factors.size(); ++j) {
-    sum.x += factors[j] * nodes[j].x;
-    sum.y += factors[j] * nodes[j].y;
-  }
-  return sum;
-}
-
-// The shape functions at tau, and their derivatives by it.
-struct Shapes {
-  BoundaryPatch::PerNode<VariableDual> values, slopes;
+// y and dy/dtau of a patch.
+struct CurvePoint {
+  DualVector place, direction;
 };
 
-Shapes ShapesAt(const BoundaryPatch::Weights& weights, const VariableDual& tau) {
-  Shapes shapes;
+CurvePoint PointAt(const BoundaryPatch::Weights& weights, const BoundaryPatch::PerNode<DualVector>& nodes,
+                   const PlaceDual& tau) {
+  const PlaceDual zero(0.0L);
+  CurvePoint point = {{zero, zero}, {zero, zero}};
   for (std::size_t j = 0; j < weights.size(); ++j) {
     const auto& [constant, linear, square] = weights[j];
-    shapes.values[j] = (tau * square + linear) * tau + constant;
-    shapes.slopes[j] = tau * (2.0L * square) + linear;
+    const PlaceDual shape = (tau * square + linear) * tau + constant, slope = tau * (2.0L * square) + linear;
+    point.place += shape * nodes[j];
+    point.direction += slope * nodes[j];
   }
-  return shapes;
+  return point;
 }
 
 }  // namespace
@@ -124,9 +111,9 @@ BoundaryShape::BoundaryShape(const Boundary& boundary, const std::vector<double>
     Parabola curve;
     for (std::size_t j = 0; j < patch.nodes.size(); ++j) {
       const Vector place = PlaceOf(patch, j);
-      curve.at = curve.at + patch.weights[j][0] * place;
-      curve.first = curve.first + patch.weights[j][1] * place;
-      curve.second = curve.second + 2.0L * patch.weights[j][2] * place;
+      curve.at += patch.weights[j][0] * place;
+      curve.first += patch.weights[j][1] * place;
+      curve.second += 2.0L * patch.weights[j][2] * place;
     }
     // Within the triangle of its Bezier points.
     const Vector corner = curve.at + 0.5L * curve.first, end = Place(curve, 1.0L);
@@ -172,7 +159,6 @@ BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
     }
   }
   BoundaryFoot nearest;
-  nearest.distance = std::numeric_limits<Real>::infinity();
   const auto offer = [&](Real tau) {
     const Real distance = Length(Place(curve, tau) - x);
     if (!(distance < nearest.distance)) return;
@@ -192,7 +178,6 @@ BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
 
 BoundaryFoot BoundaryShape::Nearest(const Vector& x, const std::vector<bool>& left_out) const {
   BoundaryFoot nearest;
-  nearest.distance = std::numeric_limits<Real>::infinity();
   const std::size_t n = curves_.size();
   const auto is_left_out = [&](std::size_t i) { return !left_out.empty() && left_out[i]; };
   search_.Search(x, [&](std::size_t i) {
@@ -204,13 +189,12 @@ BoundaryFoot BoundaryShape::Nearest(const Vector& x, const std::vector<bool>& le
   });
   const bool begins = is_left_out((nearest.patch + n - 1) % n) || (!boundary_.Closed() && nearest.patch == 0);
   const bool ends = is_left_out((nearest.patch + 1) % n) || (!boundary_.Closed() && nearest.patch + 1 == n);
+  const bool at_begin = begins && nearest.tau == 0.0L, at_end = ends && nearest.tau == 1.0L;
   const Vector back = x - Place(curves_[nearest.patch], nearest.tau);
   const Vector direction = Direction(curves_[nearest.patch], nearest.tau);
   const Real along = Dot(back, direction), rounding = kAtEnd * Length(back) * Length(direction);
-  nearest.is_end =
-      (begins && nearest.tau == 0.0L && along < -rounding) || (ends && nearest.tau == 1.0L && along > rounding);
-  nearest.over_end = !nearest.is_end && std::abs(along) <= rounding &&
-                     ((begins && nearest.tau == 0.0L) || (ends && nearest.tau == 1.0L));
+  nearest.is_end = (at_begin && along < -rounding) || (at_end && along > rounding);
+  nearest.over_end = (at_begin || at_end) && std::abs(along) <= rounding;
   nearest.is_end = nearest.is_end || (!boundary_.Closed() && IsAway(x, nearest));
   return nearest;
 }
@@ -238,7 +222,7 @@ bool BoundaryShape::IsAway(const Vector& x, const BoundaryFoot& foot) const {
 
 Vector BoundaryShape::Normal(const BoundaryFoot& foot) const {
   const Vector direction = Direction(curves_[foot.patch], foot.tau);
-  return 1.0L / Length(direction) * Vector{-direction.y, direction.x};
+  return 1.0L / Length(direction) * Left(direction);
 }
 
 Real BoundaryShape::Gap(const Vector& x, const BoundaryFoot& foot) const {
@@ -250,15 +234,12 @@ Real BoundaryShape::Gap(const Vector& x, const BoundaryFoot& foot) const {
 // the distance times the angle by which the tangent turns to the left.
 Real BoundaryShape::Walked(std::size_t patch, Real from, Real to) const {
   const Parabola& curve = curves_[patch];
-  const Real half = 0.5L * (to - from) / kParts, offset = half * std::sqrt(0.6L);
-  const auto speed = [&](Real tau) { return Length(Direction(curve, tau)); };
+  const Real half = 0.5L * (to - from) / kParts;
   Real length = 0.0L;
-  for (int part = 0; part < kParts; ++part) {
-    const Real middle = from + static_cast<Real>(2 * part + 1) * half;
-    length += half * (5.0L * speed(middle - offset) + 8.0L * speed(middle) + 5.0L * speed(middle + offset)) / 9.0L;
-  }
-  const Vector begin = Direction(curve, from), end = Direction(curve, to);
-  return length - boundary_.Radius() * std::atan2(Cross(begin, end), Dot(begin, end));
+  for (int part = 0; part < kParts; ++part)
+    length += GaussLength(from + static_cast<Real>(2 * part + 1) * half, half,
+                          [&](Real tau) { return Direction(curve, tau); });
+  return length - boundary_.Radius() * AngleBetween(Direction(curve, from), Direction(curve, to));
 }
 
 Real BoundaryShape::Walked(const BoundaryFoot& from, const BoundaryFoot& to) const {
@@ -281,17 +262,14 @@ BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoo
   BoundaryPatch::PerNode<DualVector> nodes;
   for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = VariableAt(PlaceOf(patch, j), 2 + 2 * static_cast<int>(j));
 
-  const Shapes at_foot = ShapesAt(patch.weights, VariableDual(foot.tau));
-  const DualVector place = Combined(at_foot.values, nodes), direction = Combined(at_foot.slopes, nodes);
-  const DualVector away = {node.x - place.x, node.y - place.y};
+  const CurvePoint at_foot = PointAt(patch.weights, nodes, PlaceDual(foot.tau));
   const Vector first = Direction(curve, foot.tau);
   const Real slope = Dot(x - Place(curve, foot.tau), curve.second) - Dot(first, first);
-  const VariableDual tau = VariableDual(foot.tau) - DualDot(away, direction) / slope;
+  const PlaceDual tau = PlaceDual(foot.tau) - Dot(node - at_foot.place, at_foot.direction) / slope;
 
-  const Shapes shapes = ShapesAt(patch.weights, tau);
-  const DualVector y = Combined(shapes.values, nodes), along = Combined(shapes.slopes, nodes);
-  const VariableDual gap =
-      ((node.y - y.y) * along.x - (node.x - y.x) * along.y) / sqrt(DualDot(along, along)) - boundary_.Radius();
+  const CurvePoint at = PointAt(patch.weights, nodes, tau);
+  const PlaceDual gap =
+      Cross(at.direction, node - at.place) / sqrt(Dot(at.direction, at.direction)) - boundary_.Radius();
 
   const Real speed = Length(first), curvature = Cross(first, curve.second) / (speed * speed * speed);
   const Real per_tau = speed * (1.0L - curvature * boundary_.Radius());

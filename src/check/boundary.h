@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct BoundaryPatch {
 struct BoundaryFoot {
   std::size_t patch = 0;
   Real tau = 0.0L;
-  Real distance = 0.0L;   // of the point from the foot [length]
+  Real distance = std::numeric_limits<Real>::infinity();  // of the point from the foot [length]
   bool is_end = false;    // the point is past an end of the boundary, or so deep behind it that it came round an end
   bool over_end = false;  // it is over an end to rounding, and need not be past it
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -9,55 +10,36 @@
 #include <utility>
 
 #include "check/surfaces.h"
-#include "check/tendons.h"
 #include "contact_path/scene/expand.h"
 
 namespace contact_path::check {
 namespace {
 
-Vector Turned(const Vector& v, Real angle) {
-  const Real c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
-
 // An obstacle, which is turned about a point and then moved, both in proportion to the load factor; or which a body
 // carries.
-// What is taken back of an overlap at the start.
-struct BroughtOn {
-  explicit BroughtOn(const ContactCandidate& of) : at_0(of.overlap_at_0), rate(of.overlap_rate) {}
-
-  Real GapIn(const PlacedState& state, Real distance) const {
-    return at_0 == 0.0L ? distance : distance + at_0 + rate * state.LoadFactor();
-  }
-
-  Real at_0, rate;
-};
-
 struct MovedObstacle {
+  Real TurnAt(const PlacedState& state) const { return body ? state.Rotation(*body) : turn * state.LoadFactor(); }
+
   std::shared_ptr<const Surface> surface;
   Vector point;      // p of the scene
   Vector motion;     // per unit of the load factor
   Real turn = 0.0L;  // before that, about a point
   Vector about;
   Real friction = 0.0L;
-  Real radius = 0.0L;                              // of a circle that rolls on it, about the node
-  std::size_t circle = 0;                          // the body that carries it
-  bool has_corners = false;                        // for the circle, at the ends of a curve
-  std::optional<std::size_t> body = std::nullopt;  // node; its reference point is `about` at the start
-  std::size_t num_nodes = 0;                       // of the scene
-  Real friction_rate = 0.0L;                       // per unit of the load factor
-
-  Real TurnAt(const PlacedState& state) const { return body ? state.Rotation(*body) : turn * state.LoadFactor(); }
+  Real friction_rate = 0.0L;        // per unit of the load factor
+  std::optional<std::size_t> body;  // node; its reference point is `about` at the start
+  Real radius = 0.0L;               // of a circle that rolls on it, about the node
+  std::size_t circle = 0;           // the body that carries it
+  bool has_corners = false;         // for the circle, at the ends of a curve
 };
 
 class ObstacleContact : public Contact {
  public:
   // slip_origin: of the total law of friction, as the obstacle sees it.
   // of_body: a body has the node, which it carries, or the obstacle. size: of coordinates.
-  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin, bool of_body, Real size,
-                  const BroughtOn& overlap)
-      : Contact(node, obstacle.friction),
-        overlap_(overlap),
+  ObstacleContact(std::size_t node, const ContactCandidate& of, MovedObstacle obstacle,
+                  std::optional<Vector> slip_origin, bool of_body, Real size)
+      : Contact(node, obstacle.friction, of),
         obstacle_(std::move(obstacle)),
         slip_origin_(slip_origin),
         gives_(of_body),
@@ -70,7 +52,6 @@ class ObstacleContact : public Contact {
   bool SurelyOpen(const PlacedState& state) const override {
     return !Rolls() && obstacle_.surface->SurelyOpen(Position(state));
   }
-  Real Gap(const PlacedState& state) const override { return overlap_.GapIn(state, Distance(state)); }
   // Where the obstacle is now.
   Vector Normal(const PlacedState& state) const override {
     const Vector normal = obstacle_.surface->Normal(Position(state));
@@ -90,15 +71,15 @@ class ObstacleContact : public Contact {
     return obstacle_.surface->Slip(*slip_origin_, Position(state));
   }
   void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
-    const Vector normal = Normal(state), tangent{normal.y, -normal.x};
-    const Vector force = factor * (rn * normal + rt * SlipPerMotion(state, 1.0L) * tangent);
+    const std::size_t num_positions = state.Positions().size();
+    const Vector normal = Normal(state);
+    const Vector force = factor * (rn * normal + rt * SlipPerMotion(state, 1.0L) * Right(normal));
     AddTo(forces, Node(), force);
-    if (Rolls()) (*forces)[2 * obstacle_.num_nodes + obstacle_.circle] += factor * obstacle_.radius * rt;
+    if (Rolls()) (*forces)[num_positions + obstacle_.circle] += factor * obstacle_.radius * rt;
     if (!obstacle_.body) return;
     AddTo(forces, *obstacle_.body, -1.0L * force);
     const Vector arm = state.Place(Node()) - state.Place(*obstacle_.body);
-    (*forces)[2 * obstacle_.num_nodes + *obstacle_.body] -=
-        arm.x * force.y - arm.y * force.x + factor * obstacle_.radius * rt;
+    (*forces)[num_positions + *obstacle_.body] -= Cross(arm, force) + factor * obstacle_.radius * rt;
   }
   Real Uncertain(const PlacedState& state, Real rt) const override {
     return rt == 0.0L ? 0.0L : std::abs(rt * (SlipPerMotion(state, 1.0L) - SlipPerMotion(state, -1.0L)));
@@ -106,16 +87,14 @@ class ObstacleContact : public Contact {
   // The moment as the obstacle sees it.
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
     const Vector place = Position(state), n = obstacle_.surface->Normal(place), arm = place - obstacle_.point;
-    const Real along = rt * SlipPerMotion(state, 1.0L);
-    const Vector seen{rn * n.x + along * n.y, rn * n.y - along * n.x};
-    return {!Turns() ? seen : Turned(seen, obstacle_.TurnAt(state)),
-            arm.x * seen.y - arm.y * seen.x + obstacle_.radius * rt};
+    const Vector seen = rn * n + rt * SlipPerMotion(state, 1.0L) * Right(n);
+    return {!Turns() ? seen : Turned(seen, obstacle_.TurnAt(state)), Cross(arm, seen) + obstacle_.radius * rt};
   }
   Vector Velocity(const PlacedState& state) const override {
     if (obstacle_.turn == 0.0L) return obstacle_.motion;
     const Vector arm = state.Place(Node()) - obstacle_.radius * Normal(state) - obstacle_.about -
                        state.LoadFactor() * obstacle_.motion;
-    return obstacle_.motion + obstacle_.turn * Vector{-arm.y, arm.x};
+    return obstacle_.motion + obstacle_.turn * Left(arm);
   }
 
  private:
@@ -123,9 +102,9 @@ class ObstacleContact : public Contact {
   // which side.
   Real SlipPerMotion(const PlacedState& state, Real sense) const {
     const Real gap = Distance(state), step = sense * std::max(step_, std::abs(gap));
-    if ((!gives_ && overlap_.at_0 == 0.0L) || gap == 0.0L) return 1.0L;
+    if ((!gives_ && !IsBroughtOn()) || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
-    const Vector along{step * n.y, -step * n.x};
+    const Vector along = step * Right(n);
     // About an end the foot rests, and the way is that of the centre.
     const auto way = [&](const Vector& from) {
       const Real of_foot = obstacle_.surface->Slip(from, from + along);
@@ -134,10 +113,11 @@ class ObstacleContact : public Contact {
     return way(at) / way(closed);
   }
   Real TurnOfTangent(const Vector& begin, const Vector& end) const {
-    const Vector before = obstacle_.surface->Normal(begin), after = obstacle_.surface->Normal(end);
-    return std::atan2(Cross(before, after), Dot(before, after));
+    return AngleBetween(obstacle_.surface->Normal(begin), obstacle_.surface->Normal(end));
   }
-  Real Distance(const PlacedState& state) const { return obstacle_.surface->Gap(Position(state)) - obstacle_.radius; }
+  Real Distance(const PlacedState& state) const override {
+    return obstacle_.surface->Gap(Position(state)) - obstacle_.radius;
+  }
   bool Rolls() const { return obstacle_.radius > 0.0L; }
   bool Turns() const { return obstacle_.body || obstacle_.turn != 0.0L; }
   // The node as the obstacle sees it.
@@ -153,7 +133,6 @@ class ObstacleContact : public Contact {
   // differs from its limit by its square times the gap only.
   static constexpr Real kStep = 1e-5L;
 
-  BroughtOn overlap_;
   MovedObstacle obstacle_;
   std::optional<Vector> slip_origin_;
   bool gives_;
@@ -166,16 +145,9 @@ class BoundaryContact : public Contact {
   // first_node: of the surface.
   BoundaryContact(std::size_t node, std::size_t surface, std::size_t first_node, const ContactCandidate& of,
                   std::vector<bool> left_out)
-      : Contact(node, of.friction),
-        surface_(surface),
-        first_node_(first_node),
-        overlap_(of),
-        left_out_(std::move(left_out)) {}
+      : Contact(node, of.friction, of), surface_(surface), first_node_(first_node), left_out_(std::move(left_out)) {}
 
   std::optional<std::size_t> TouchedSurface() const override { return surface_; }
-  Real Gap(const PlacedState& state) const override {
-    return overlap_.GapIn(state, state.Shape(surface_).Gap(state.Place(Node()), FootIn(state)));
-  }
   Real GapPastEnd(const PlacedState& state) const override {
     const BoundaryFoot foot = FootIn(state);
     return foot.over_end ? foot.distance : state.Shape(surface_).Gap(state.Place(Node()), foot);
@@ -199,7 +171,7 @@ class BoundaryContact : public Contact {
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
     const Vector place = state.Place(Node()), arm = place - state.Place(first_node_);
     const Vector force = state.Shape(surface_).ForcesOf(place, FootIn(state), rn, rt).on_node;
-    return {force, arm.x * force.y - arm.y * force.x};
+    return {force, Cross(arm, force)};
   }
   Real Imbalance(const PlacedState& state, Real rn, Real rt, Real length) const override {
     const Vector x = state.Place(Node());
@@ -209,20 +181,21 @@ class BoundaryContact : public Contact {
     Vector sum = forces.on_node;
     Real moment = 0.0L;
     for (std::size_t i = 0; i < forces.on_patch.size(); ++i) {
-      const Vector arm = shape.PlaceOf(shape.PatchOf(foot), i) - x, force = forces.on_patch[i];
-      sum = sum + force;
-      moment += arm.x * force.y - arm.y * force.x;
+      sum += forces.on_patch[i];
+      moment += Cross(shape.PlaceOf(shape.PatchOf(foot), i) - x, forces.on_patch[i]);
     }
     return std::max(Length(sum), std::abs(moment) / length);
   }
 
  private:
+  Real Distance(const PlacedState& state) const override {
+    return state.Shape(surface_).Gap(state.Place(Node()), FootIn(state));
+  }
   BoundaryFoot FootIn(const PlacedState& state) const {
     return state.Shape(surface_).Nearest(state.Place(Node()), left_out_);
   }
 
   std::size_t surface_, first_node_;
-  BroughtOn overlap_;
   std::vector<bool> left_out_;
 };
 
@@ -241,27 +214,24 @@ std::vector<bool> PatchesLeftOutFor(const std::string& node, const BoundarySurfa
 
 using NodeLists = std::vector<std::vector<std::size_t>>;
 
-// The nodes round each element of the solids that have two neighbours of the surface in one element.
-NodeLists ElementsBehind(const BoundarySurface& surface, const Scene& scene, const NodeNumbers& numbers) {
-  std::unordered_map<std::string_view, std::size_t> places;
-  for (std::size_t i = 0; i < surface.nodes.size(); ++i) places.emplace(surface.nodes[i], i);
+// The nodes round each element of the solids that have two neighbours of a surface, against its sense, in one element.
+// nodes: of the surface.
+NodeLists ElementsBehind(const std::vector<std::size_t>& nodes, const Scene& scene, const NodeNumbers& numbers) {
+  std::set<std::pair<std::size_t, std::size_t>> edges;
+  for (std::size_t i = 1; i < nodes.size(); ++i) edges.insert({nodes[i], nodes[i - 1]});
   NodeLists behind;
   for (const Solid& solid : scene.solids) {
     const std::size_t size = solid.NodesPerElement(), corners = size > 4 ? size / 2 : size;
     NodeLists elements;
     bool bounded = false;
     for (std::size_t first = 0; first < solid.nodes.size(); first += size) {
-      std::vector<const std::string*> round;
+      std::vector<std::size_t>& round = elements.emplace_back();
       for (std::size_t i = 0; i < corners; ++i) {
-        round.push_back(&solid.nodes[first + i]);
-        if (size > corners) round.push_back(&solid.nodes[first + corners + i]);
+        round.push_back(numbers.at(solid.nodes[first + i]));
+        if (size > corners) round.push_back(numbers.at(solid.nodes[first + corners + i]));
       }
-      elements.emplace_back();
-      for (std::size_t i = 0; i < round.size(); ++i) {
-        const auto from = places.find(*round[i]), to = places.find(*round[(i + 1) % round.size()]);
-        bounded = bounded || (from != places.end() && to != places.end() && from->second == to->second + 1);
-        elements.back().push_back(numbers.at(*round[i]));
-      }
+      for (std::size_t i = 0; i < round.size(); ++i)
+        bounded = bounded || edges.count({round[i], round[(i + 1) % round.size()]}) > 0;
     }
     if (bounded) behind.insert(behind.end(), elements.begin(), elements.end());
   }
@@ -279,8 +249,7 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
     if (const std::size_t n = nodes.size(); !surface.closed)
       axes = {SymmetryOf(scene.nodes[nodes[0]], scene.nodes[nodes[1]], scene),
               SymmetryOf(scene.nodes[nodes[n - 1]], scene.nodes[nodes[n - 2]], scene)};
-    boundaries.emplace_back(surface, nodes, axes,
-                            surface.closed ? NodeLists() : ElementsBehind(surface, scene, numbers));
+    boundaries.emplace_back(surface, nodes, axes, surface.closed ? NodeLists() : ElementsBehind(nodes, scene, numbers));
   }
   return boundaries;
 }
@@ -288,18 +257,17 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
 std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& slip_origins, Real size) {
   std::unordered_map<std::string_view, MovedObstacle> obstacles;
-  std::unordered_map<std::string_view, const Obstacle*> circles;
-  for (const Obstacle& obstacle : scene.obstacles) circles.emplace(obstacle.name, &obstacle);
-  for (const Obstacle& obstacle : scene.obstacles)
-    obstacles.emplace(
-        obstacle.name,
-        MovedObstacle{MakeSurface(obstacle), {obstacle.px, obstacle.py}, {}, 0.0L, {}, obstacle.friction});
-  for (const Obstacle& obstacle : scene.obstacles)
-    if (!obstacle.body.empty()) {
-      MovedObstacle& carried = obstacles.at(obstacle.name);
-      carried.body = numbers.at(obstacle.body);
-      carried.about = {scene.nodes[*carried.body].x, scene.nodes[*carried.body].y};
-    }
+  std::unordered_map<std::string_view, const Obstacle*> given;
+  for (const Obstacle& obstacle : scene.obstacles) {
+    given.emplace(obstacle.name, &obstacle);
+    MovedObstacle& of = obstacles[obstacle.name];
+    of.surface = MakeSurface(obstacle);
+    of.point = {obstacle.px, obstacle.py};
+    of.friction = obstacle.friction;
+    if (obstacle.body.empty()) continue;
+    of.body = numbers.at(obstacle.body);
+    of.about = {scene.nodes[*of.body].x, scene.nodes[*of.body].y};
+  }
   for (const ObstacleMotion& motion : scene.obstacle_motions) {
     MovedObstacle& moved = obstacles.at(motion.obstacle);
     moved.motion = {motion.dx, motion.dy};
@@ -330,18 +298,15 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
       origin = Vector{slip_origins.at(k), slip_origins.at(k + 1)};
     MovedObstacle partner = obstacle->second;
     if (contact.friction > 0.0) partner.friction = contact.friction;
-    if (!contact.obstacles.empty()) {
-      const Obstacle& circle = *circles.at(contact.obstacles.front());
+    if (contact.Rolls()) {
+      const Obstacle &circle = *given.at(contact.obstacles.front()), &touched = *given.at(contact.obstacle);
       partner.radius = circle.radius;
-      const Obstacle& touched = *circles.at(contact.obstacle);
+      partner.circle = numbers.at(circle.body);
       partner.surface = MakeSurface(touched, true);
       partner.has_corners = !touched.points.empty();
-      partner.circle = numbers.at(circle.body);
     }
-    partner.num_nodes = scene.nodes.size();
-    const bool of_body = !contact.obstacles.empty() || partner.body.has_value() || IsAttached(scene.nodes[node]);
-    contacts.push_back(
-        std::make_unique<ObstacleContact>(node, std::move(partner), origin, of_body, size, BroughtOn(contact)));
+    const bool of_body = contact.Rolls() || partner.body || IsAttached(scene.nodes[node]);
+    contacts.push_back(std::make_unique<ObstacleContact>(node, contact, std::move(partner), origin, of_body, size));
   }
   return contacts;
 }

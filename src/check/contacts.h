@@ -63,7 +63,11 @@ class Contact {
 
   // True: the gap is > 0, told at once of most nodes that are far away. False tells nothing.
   virtual bool SurelyOpen(const PlacedState&) const { return false; }
-  virtual Real Gap(const PlacedState& state) const = 0;
+  // What is taken back of an overlap at the start belongs to it.
+  Real Gap(const PlacedState& state) const {
+    return overlap_at_0_ == 0.0L ? Distance(state)
+                                 : Distance(state) + overlap_at_0_ + overlap_rate_ * state.LoadFactor();
+  }
   // The same, if a node that is over an end of the surface to rounding counts as past it.
   virtual Real GapPastEnd(const PlacedState& state) const { return Gap(state); }
   // Towards the admissible side.
@@ -95,11 +99,16 @@ class Contact {
   virtual Real Imbalance(const PlacedState&, Real, Real, Real) const { return 0.0L; }
 
  protected:
-  Contact(std::size_t node, Real friction) : node_(node), friction_(friction) {}
+  Contact(std::size_t node, Real friction, const ContactCandidate& of)
+      : node_(node), friction_(friction), overlap_at_0_(of.overlap_at_0), overlap_rate_(of.overlap_rate) {}
+
+  bool IsBroughtOn() const { return overlap_at_0_ != 0.0L; }
+  // From what the node touches [length].
+  virtual Real Distance(const PlacedState& state) const = 0;
 
  private:
   std::size_t node_;
-  Real friction_;
+  Real friction_, overlap_at_0_, overlap_rate_;
 };
 
 // By surface of the scene.
@@ -109,6 +118,9 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
 // std::invalid_argument for a name that the scene does not have.
 std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& slip_origins, Real size);
+
+// Of an eye of a tendon: r_n is the sum of the tensions before it and behind it, r_t the first less the second.
+std::unique_ptr<const Contact> MakeEye(const ContactCandidate& eye, const Scene& scene, const NodeNumbers& numbers);
 
 // N, Q, M, M1, M2 of bars and segments of beams, in the order of the elements. values: as ValuesOf() orders them.
 // num_positions: of the values, those before the rotations.
@@ -122,14 +134,11 @@ struct ContactEdge {
   std::vector<std::size_t> contacts;  // at these nodes
 };
 
-// Where a contact is: its node, and the boundary that it may touch.
-struct ContactPlace {
-  std::size_t node = 0, boundary = 0;
-};
-
 // Edges of one element of a solid alone, and segments of beams, all of whose nodes have a contact with one boundary.
+// boundary_of: by contact, the boundary that it may touch.
 std::vector<ContactEdge> ContactEdges(const std::vector<std::unique_ptr<const Element>>& elements,
-                                      const std::vector<ContactPlace>& contacts);
+                                      const std::vector<std::unique_ptr<const Contact>>& contacts,
+                                      const std::vector<std::size_t>& boundary_of);
 
 // By contact: the integral of the shape function of its node along the edges, by Gauss's rule of three points [length].
 std::vector<double> ContactLengths(const std::vector<ContactEdge>& edges, std::size_t num_contacts,

@@ -9,88 +9,68 @@
 #include <string>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "check/tendons.h"
-
 namespace contact_path::check {
 namespace {
 
 constexpr double kStep = 0x1p-20;  // of difference quotients, of the extent of the element
 
-struct BarLengths {
-  Real current = 0.0L;
-  Real rest = 0.0L;
-  Vector span;  // from the first node to the second
+struct BarStrain {
+  Real strain;           // e
+  Real rate_per_length;  // de/dl / l: by Green and Lagrange's measure a bar of no length has one, too
 };
 
-// e
-Real Strain(StrainMeasure measure, const BarLengths& lengths) {
-  const Real stretch = lengths.current / lengths.rest;
+BarStrain StrainOf(StrainMeasure measure, Real length, Real rest) {
+  const Real stretch = length / rest;
   switch (measure) {
-    case StrainMeasure::kBiot: return stretch - 1.0L;
-    case StrainMeasure::kGreenLagrange: return (stretch * stretch - 1.0L) / 2.0L;
-    case StrainMeasure::kLogarithmic: return std::log(stretch);
+    case StrainMeasure::kBiot: return {stretch - 1.0L, 1.0L / (rest * length)};
+    case StrainMeasure::kGreenLagrange: return {(stretch * stretch - 1.0L) / 2.0L, 1.0L / (rest * rest)};
+    case StrainMeasure::kLogarithmic: return {std::log(stretch), 1.0L / (length * length)};
   }
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
-// de/dl / l: by Green and Lagrange's measure a bar of no length has one, too.
-Real StrainRatePerLength(StrainMeasure measure, const BarLengths& lengths) {
-  switch (measure) {
-    case StrainMeasure::kBiot: return 1.0L / (lengths.rest * lengths.current);
-    case StrainMeasure::kGreenLagrange: return 1.0L / (lengths.rest * lengths.rest);
-    case StrainMeasure::kLogarithmic: return 1.0L / (lengths.current * lengths.current);
-  }
-  return std::numeric_limits<Real>::quiet_NaN();
+  constexpr Real kNaN = std::numeric_limits<Real>::quiet_NaN();
+  return {kNaN, kNaN};
 }
 
 // W = EA l0 e^2 / 2.
 class BarElement : public Element {
  public:
   BarElement(const Bar& bar, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
-      : Element(Kind::kBar, nodes),
-        first_(nodes.at(0)),
-        second_(nodes.at(1)),
-        EA_(bar.EA),
-        rest_(bar.rest_length),
-        strain_(bar.strain),
-        sense_(bar.sense) {
-    if (bar.rest_length == 0.0) rest_ = Length(NodePosition(reference, second_) - NodePosition(reference, first_));
+      : Element(Kind::kBar, nodes), EA_(bar.EA), rest_(bar.rest_length), measure_(bar.strain), sense_(bar.sense) {
+    if (bar.rest_length == 0.0) rest_ = Length(Span(reference));
   }
 
   Real Stiffness() const override { return EA_ / rest_; }
 
   void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
-    const BarLengths lengths = Measure(positions);
-    const Real strain = StrainOf(lengths);
-    *energy += EA_ * lengths.rest * strain * strain / 2.0L;
+    const Real strain = Strain(Span(positions)).strain;
+    *energy += EA_ * rest_ * strain * strain / 2.0L;
   }
 
   void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
-    const BarLengths lengths = Measure(positions);
+    const Vector span = Span(positions);
     // N = dW/dl = EA l0 e de/dl, along the bar: N / l times its span.
-    const Real strain = StrainOf(lengths);
+    const auto [strain, rate_per_length] = Strain(span);
     if (strain == 0.0L) return;
-    const Real per_length = EA_ * lengths.rest * strain * StrainRatePerLength(strain_, lengths);
-    AddTo(forces, first_, -per_length * lengths.span);
-    AddTo(forces, second_, per_length * lengths.span);
+    const Real per_length = EA_ * rest_ * strain * rate_per_length;
+    AddTo(forces, Nodes()[0], -per_length * span);
+    AddTo(forces, Nodes()[1], per_length * span);
   }
 
  private:
   // 0 where the bar is slack.
-  Real StrainOf(const BarLengths& lengths) const {
-    const Real strain = Strain(strain_, lengths);
-    if (sense_ == BarSense::kTension) return std::max<Real>(strain, 0.0L);
-    return sense_ == BarSense::kCompression ? std::min<Real>(strain, 0.0L) : strain;
+  BarStrain Strain(const Vector& span) const {
+    BarStrain of = StrainOf(measure_, Length(span), rest_);
+    if (sense_ == BarSense::kTension) of.strain = std::max<Real>(of.strain, 0.0L);
+    if (sense_ == BarSense::kCompression) of.strain = std::min<Real>(of.strain, 0.0L);
+    return of;
   }
 
-  BarLengths Measure(const std::vector<double>& positions) const {
-    const Vector span = NodePosition(positions, second_) - NodePosition(positions, first_);
-    return {Length(span), rest_, span};
+  // From the first node to the second.
+  Vector Span(const std::vector<double>& positions) const {
+    return NodePosition(positions, Nodes()[1]) - NodePosition(positions, Nodes()[0]);
   }
 
-  std::size_t first_, second_;
   Real EA_, rest_;
-  StrainMeasure strain_;
+  StrainMeasure measure_;
   BarSense sense_;
 };
 
@@ -98,55 +78,45 @@ class BarElement : public Element {
 class LinearPart : public Element {
  public:
   LinearPart(const Superelement& part, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
-      : Element(Kind::kLinearPart, nodes),
-        stiffness_(part.stiffness.begin(), part.stiffness.end()),
-        rest_(part.rest_positions.begin(), part.rest_positions.end()) {
+      : Element(Kind::kLinearPart, nodes), rest_(part.rest_positions) {
+    const auto size = static_cast<Eigen::Index>(2 * nodes.size());
+    using RowByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    stiffness_ = Eigen::Map<const RowByRow>(part.stiffness.data(), size, size).cast<Real>();
     if (rest_.empty())
       for (const std::size_t node : nodes) rest_.insert(rest_.end(), {reference[2 * node], reference[2 * node + 1]});
   }
 
   bool Turns() const override { return false; }
-
-  Real Stiffness() const override {
-    Real largest = 0.0L;
-    for (const Real entry : stiffness_) largest = std::max(largest, std::abs(entry));
-    return largest;
-  }
+  Real Stiffness() const override { return stiffness_.cwiseAbs().maxCoeff(); }
 
   void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
-    const std::vector<Real> displacements = Displacements(positions), forces = Forces(displacements);
-    for (std::size_t i = 0; i < forces.size(); ++i) *energy += forces[i] * displacements[i] / 2.0L;
+    const Numbers displacements = Displacements(positions), forces = stiffness_.lazyProduct(displacements);
+    for (Eigen::Index i = 0; i < forces.size(); ++i) *energy += forces[i] * displacements[i] / 2.0L;
   }
 
   void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
-    const std::vector<Real> elastic = Forces(Displacements(positions));
-    for (std::size_t i = 0; i < Nodes().size(); ++i) AddTo(forces, Nodes()[i], {elastic[2 * i], elastic[2 * i + 1]});
+    const Numbers elastic = stiffness_.lazyProduct(Displacements(positions));
+    for (std::size_t i = 0; i < Nodes().size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(2 * i);
+      AddTo(forces, Nodes()[i], {elastic[k], elastic[k + 1]});
+    }
   }
 
  private:
+  using Numbers = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
   // x - X of the nodes, in their order.
-  std::vector<Real> Displacements(const std::vector<double>& positions) const {
-    std::vector<Real> displacements;
+  Numbers Displacements(const std::vector<double>& positions) const {
+    Numbers displacements(stiffness_.rows());
     for (std::size_t i = 0; i < Nodes().size(); ++i) {
       const Vector moved = NodePosition(positions, Nodes()[i]) - NodePosition(rest_, i);
-      displacements.push_back(moved.x);
-      displacements.push_back(moved.y);
+      displacements.segment<2>(static_cast<Eigen::Index>(2 * i)) << moved.x, moved.y;
     }
     return displacements;
   }
 
-  // K d
-  std::vector<Real> Forces(const std::vector<Real>& displacements) const {
-    const std::size_t size = displacements.size();
-    std::vector<Real> forces(size, 0.0L);
-    for (std::size_t row = 0; row < size; ++row)
-      for (std::size_t column = 0; column < size; ++column)
-        forces[row] += stiffness_[row * size + column] * displacements[column];
-    return forces;
-  }
-
-  std::vector<Real> stiffness_;  // row by row
-  std::vector<double> rest_;     // x0, y0, x1, ...
+  Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> stiffness_;
+  std::vector<double> rest_;  // x0, y0, x1, ...
 };
 
 // A segment of a beam: the stretching of the chord and the bending by what its ends turn more than the chord does.
@@ -169,26 +139,27 @@ class Segment : public Element {
   }
 
   void AddEnergy(const std::vector<double>& values, Real* energy) const override {
-    *energy += EnergyOf<Real>({values[places_[0]], values[places_[1]], Rotation(values, 0), values[places_[3]],
-                               values[places_[4]], Rotation(values, 1)});
+    *energy += EnergyOf(VariablesIn(values));
   }
 
   void AddForce(const std::vector<double>& values, std::vector<Real>* forces) const override {
     using Gradient = Eigen::Matrix<Real, 6, 1>;
+    const std::array<Real, 6> given = VariablesIn(values);
     std::array<Eigen::AutoDiffScalar<Gradient>, 6> variables;
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      const bool rotation = i % 3 == 2;
-      variables[i] = {rotation ? Rotation(values, i / 3) : Real{values[places_[i]]}, 6, static_cast<int>(i)};
-    }
+    for (std::size_t i = 0; i < variables.size(); ++i) variables[i] = {given[i], 6, static_cast<int>(i)};
     const Gradient gradient = EnergyOf(variables).derivatives();
     for (std::size_t i = 0; i < variables.size(); ++i)
-      if (i % 3 != 2 || turns_[i / 3]) (*forces)[places_[i]] += gradient[static_cast<Eigen::Index>(i)];
+      if (!IsHinged(i)) (*forces)[places_[i]] += gradient[static_cast<Eigen::Index>(i)];
   }
 
  private:
   // A hinged end has nothing of the rotation of its node.
-  Real Rotation(const std::vector<double>& values, std::size_t end) const {
-    return turns_[end] ? Real{values[places_[3 * end + 2]]} : 0.0L;
+  bool IsHinged(std::size_t variable) const { return variable % 3 == 2 && !turns_[variable / 3]; }
+  std::array<Real, 6> VariablesIn(const std::vector<double>& values) const {
+    std::array<Real, 6> variables{};
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      if (!IsHinged(i)) variables[i] = values[places_[i]];
+    return variables;
   }
 
   // variables: x, y, rotation of the first node, then of the second.
@@ -208,7 +179,7 @@ class Segment : public Element {
     Real mean = 0.0L;
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
       if (turns_[end]) mean += ValueOf(variables[3 * end + 2]) / ends;
-    turn += kTurn * std::round((mean - ValueOf(turn)) / kTurn);
+    turn += 2.0L * kPi * std::round((mean - ValueOf(turn)) / (2.0L * kPi));
     const Real shear = beam_.GA > 0.0 ? 12.0L * beam_.EI / (beam_.GA * rest * rest) : 0.0L;
     const Real near = (4.0L + shear) / (1.0L + shear), far = (2.0L - shear) / (1.0L + shear),
                half = beam_.EI / (2.0L * rest);
@@ -225,8 +196,6 @@ class Segment : public Element {
   static Real ValueOf(const Number& number) {
     return number.value();
   }
-
-  static constexpr Real kTurn = 6.283185307179586476925286766559L;
 
   const Beam beam_;
   std::array<bool, 2> turns_;
@@ -262,74 +231,71 @@ class Spring : public Element {
   Real stiffness_, angle_;
 };
 
-using Elements = std::vector<std::unique_ptr<const Element>>;
 using NodeList = std::vector<std::size_t>;
 
-void Place(const Bar& bar, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
-           Elements* elements) {
-  elements->push_back(std::make_unique<BarElement>(bar, nodes, reference));
-}
+struct ElementMaker {
+  const Scene& scene;
+  const NodeNumbers& numbers;
+  const std::vector<double>& reference;
+  std::vector<double> unturned;  // reference, and a rotation of 0 for each node
+  std::vector<std::unique_ptr<const Element>> elements = {};
 
-void Place(const Superelement& part, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
-           Elements* elements) {
-  elements->push_back(std::make_unique<LinearPart>(part, nodes, reference));
-}
-
-void Place(const Beam& beam, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
-           Elements* elements) {
-  const auto hinged = [&](std::size_t end) { return !beam.hinged.empty() && beam.hinged[end]; };
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
-    elements->push_back(std::make_unique<Segment>(beam, nodes[i], nodes[i + 1], i > 0 || !hinged(0),
-                                                  i + 2 < nodes.size() || !hinged(1), reference));
-}
-
-void Place(const Pin& pin, const Scene& scene, const NodeList& nodes, const std::vector<double>& reference,
-           Elements* elements) {
-  if (pin.stiffness == 0.0) return;
-  NodeList turning;
-  for (const std::size_t node : nodes) {
-    const std::string& body = scene.nodes[node].body;
-    const auto is_body = [&](const Node& of) { return of.name == body; };
-    turning.push_back(body.empty()
-                          ? node
-                          : static_cast<std::size_t>(std::find_if(scene.nodes.begin(), scene.nodes.end(), is_body) -
-                                                     scene.nodes.begin()));
+  NodeList NumbersOf(const std::vector<std::string>& names) const {
+    NodeList nodes;
+    for (const std::string& name : names) nodes.push_back(numbers.at(name));
+    return nodes;
   }
-  elements->push_back(std::make_unique<Spring>(pin, turning, reference.size()));
-}
 
-// The elements of a mesh.
-void Place(const Solid& solid, const Scene& scene, const NodeList& nodes, const std::vector<double>& reference,
-           Elements* elements) {
-  const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                     [&](const Material& known) { return known.name == solid.material; });
-  if (material == scene.materials.end()) throw std::out_of_range("no material has the name " + solid.material);
-  const auto count = static_cast<std::ptrdiff_t>(solid.NodesPerElement());
-  for (auto first = nodes.begin(); first != nodes.end(); first += count)
-    elements->push_back(MakeSolid(solid, *material, {first, first + count}, reference));
-}
+  void Add(const Bar& bar) { elements.push_back(std::make_unique<BarElement>(bar, NumbersOf(bar.nodes), reference)); }
+
+  void Add(const Superelement& part) {
+    elements.push_back(std::make_unique<LinearPart>(part, NumbersOf(part.nodes), reference));
+  }
+
+  void Add(const Beam& beam) {
+    const NodeList nodes = NumbersOf(beam.nodes);
+    const auto hinged = [&](std::size_t end) { return !beam.hinged.empty() && beam.hinged[end]; };
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+      elements.push_back(std::make_unique<Segment>(beam, nodes[i], nodes[i + 1], i > 0 || !hinged(0),
+                                                   i + 2 < nodes.size() || !hinged(1), reference));
+  }
+
+  void Add(const Tendon& tendon) { elements.push_back(MakeTendon(tendon, scene, numbers, unturned)); }
+
+  void Add(const Pin& pin) {
+    if (pin.stiffness == 0.0) return;
+    NodeList turning;
+    for (const std::size_t node : NumbersOf(pin.nodes)) {
+      const std::string& body = scene.nodes[node].body;
+      turning.push_back(body.empty() ? node : numbers.at(body));
+    }
+    elements.push_back(std::make_unique<Spring>(pin, turning, reference.size()));
+  }
+
+  // The elements of a mesh.
+  void Add(const Solid& solid) {
+    const NodeList nodes = NumbersOf(solid.nodes);
+    const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                       [&](const Material& known) { return known.name == solid.material; });
+    if (material == scene.materials.end()) throw std::out_of_range("no material has the name " + solid.material);
+    const auto count = static_cast<std::ptrdiff_t>(solid.NodesPerElement());
+    for (auto first = nodes.begin(); first != nodes.end(); first += count)
+      elements.push_back(MakeSolid(solid, *material, {first, first + count}, reference));
+  }
+};
 
 }  // namespace
 
 std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& reference) {
-  std::vector<std::unique_ptr<const Element>> elements;
-  std::vector<double> unturned = reference;
-  unturned.resize(3 * scene.nodes.size());
+  ElementMaker maker{scene, numbers, reference, reference};
+  maker.unturned.resize(3 * scene.nodes.size());
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
-    for (const auto& part : parts) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Tendon>) {
-        elements.push_back(MakeTendon(part, scene, numbers, unturned));
-      } else {
-        std::vector<std::size_t> nodes;
-        for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
-        Place(part, scene, nodes, reference, &elements);
-      }
-    }
+    for (const auto& part : parts) maker.Add(part);
   });
   for (const ContactCandidate& contact : scene.contacts)
-    if (contact.at_eye) elements.push_back(MakeEvenStrain(contact, scene, numbers, unturned));
-  return elements;
+    if (contact.at_eye) maker.elements.push_back(MakeEvenStrain(contact, scene, numbers, maker.unturned));
+  return std::move(maker.elements);
 }
 
 std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<const Element>>& elements,
@@ -345,29 +311,26 @@ std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<con
       extent = std::max(extent, Length(NodePosition(values, node) - NodePosition(values, element->Nodes()[0])));
     }
     const double step = kStep * (extent > 0.0L ? static_cast<double>(extent) : 1.0);
-    // Calls visit(i, rate of the force in the component i) for a motion of the component k.
-    const auto for_each_rate = [&](std::size_t k, auto visit) {
-      const auto forces_at = [&](double value) {
-        for (const std::size_t i : components) forces[i] = 0.0L;
-        moved[k] = value;
-        element->AddForce(moved, &forces);
-        std::vector<Real> own;
-        own.reserve(components.size());
-        for (const std::size_t i : components) own.push_back(forces[i]);
-        moved[k] = values[k];
-        return own;
-      };
-      const double there = values[k] + step;
-      const std::vector<Real> before = forces_at(values[k]), after = forces_at(there);
-      for (std::size_t i = 0; i < components.size(); ++i)
-        visit(components[i], std::abs(static_cast<double>((after[i] - before[i]) / (Real{there} - values[k]))));
+    const auto forces_at = [&](std::size_t k, double value) {
+      for (const std::size_t i : components) forces[i] = 0.0L;
+      moved[k] = value;
+      element->AddForce(moved, &forces);
+      moved[k] = values[k];
+      std::vector<Real> own;
+      for (const std::size_t i : components) own.push_back(forces[i]);
+      return own;
     };
     double largest = 0.0;
-    for (const std::size_t k : components)
-      for_each_rate(k, [&](std::size_t i, double rate) {
+    for (const std::size_t k : components) {
+      const double there = values[k] + step;
+      const std::vector<Real> before = forces_at(k, values[k]), after = forces_at(k, there);
+      for (std::size_t i = 0; i < components.size(); ++i) {
+        const double rate = std::abs(static_cast<double>((after[i] - before[i]) / (Real{there} - values[k])));
         largest = std::max(largest, rate);
-        if (!element->Turns()) (i % 2 == 0 ? bounds[i / 2].x : bounds[i / 2].y) += rate;
-      });
+        StiffnessBound& bound = bounds[components[i] / 2];
+        if (!element->Turns()) (components[i] % 2 == 0 ? bound.x : bound.y) += rate;
+      }
+    }
     if (element->Turns())
       for (const std::size_t node : element->Nodes()) bounds[node].any += largest;
   }

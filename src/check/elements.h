@@ -84,6 +84,15 @@ using NodeNumbers = std::unordered_map<std::string_view, std::size_t>;  // by na
 std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& reference);
 
+// Of a tendon, or a piece of one in the expanded scene: its energy where its tension is > 0, its force, and that on
+// what slides. reference: places of the nodes at the start, and a rotation of 0 for each.
+std::unique_ptr<const Element> MakeTendon(const Tendon& tendon, const Scene& scene, const NodeNumbers& numbers,
+                                          const std::vector<double>& reference);
+
+// Of an eye of the pieces: what keeps even the strains of a slack tendon on both sides.
+std::unique_ptr<const Element> MakeEvenStrain(const ContactCandidate& eye, const Scene& scene,
+                                              const NodeNumbers& numbers, const std::vector<double>& reference);
+
 // nodes: of one element of the solid. reference: x0, y0, x1, ... of all nodes of the scene. Energy and forces are NaN
 // where the element is turned inside out, and where plane stress has no solution.
 std::unique_ptr<const Element> MakeSolid(const Solid& solid, const Material& material, std::vector<std::size_t> nodes,

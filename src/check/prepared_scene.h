@@ -16,7 +16,6 @@
 #include "check/boundary.h"
 #include "check/contacts.h"
 #include "check/elements.h"
-#include "check/pins.h"
 #include "check/plane.h"
 #include "contact_path/check/residuals.h"
 #include "contact_path/scene/expand.h"
@@ -50,6 +49,11 @@ struct ResidualCheck::Prepared {
     check::Real fx = 0.0L, fy = 0.0L, moment = 0.0L;
     bool constant = false;
   };
+  struct PreparedPin {
+    std::size_t first, second;  // nodes
+    check::Vector apart;        // first less second: what rounding has left of that where they are written
+    bool gives;                 // way to its force, as one that is in a loop
+  };
   Prepared(const Scene& scene, const Configuration& configuration, const Scaling& scaling_in)
       : scaling(scaling_in), num_positions(configuration.start.size()), start(configuration.start) {
     check::NodeNumbers index;
@@ -65,7 +69,11 @@ struct ResidualCheck::Prepared {
       start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
     }
     elements = check::MakeElements(scene, index, configuration.reference);
-    pins.emplace(scene, index, configuration.reference);
+    const std::vector<bool> in_loops = PinsInLoops(scene);
+    for (const Pin& pin : scene.pins) {
+      pins.push_back({index.at(pin.nodes.at(0)), index.at(pin.nodes.at(1)), {}, in_loops[pins.size()]});
+      pins.back().apart = Apart(pins.back(), configuration.reference);
+    }
     // Coordinates are rounded relative to their size.
     check::Real size = scaling.length;
     for (const double coordinate : configuration.start) size = std::max<check::Real>(size, std::abs(coordinate));
@@ -96,9 +104,7 @@ struct ResidualCheck::Prepared {
     num_touched = touched.size();
     touched_by = BoundaryOfContacts(scene, touched);
     contacts = check::MakeContacts(scene, index, configuration.slip_origins, size);
-    std::vector<check::ContactPlace> places;
-    for (std::size_t i = 0; i < contacts.size(); ++i) places.push_back({contacts[i]->Node(), touched_by[i]});
-    contact_edges = check::ContactEdges(elements, places);
+    contact_edges = check::ContactEdges(elements, contacts, touched_by);
     if (std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->TouchedSurface(); }))
       boundaries = check::MakeBoundaries(scene, index);
     const std::vector<check::Real> of_surfaces =
@@ -123,13 +129,20 @@ struct ResidualCheck::Prepared {
     return largest;
   }
 
+  // Of what gives way: motion per force [length/force].
+  double Give() const { return static_cast<double>(check::kGive) * scaling.length / scaling.force; }
+
   check::PlacedState Placed(const CheckedState& state) const { return {state, boundaries}; }
+
+  // From the second node of a pin to the first one.
+  static check::Vector Apart(const PreparedPin& pin, const std::vector<double>& positions) {
+    return check::NodePosition(positions, pin.first) - check::NodePosition(positions, pin.second) - pin.apart;
+  }
 
   // phi - T r on each component: internal forces less loads less reactions. What acts on an attached node acts on its
   // body.
   std::vector<check::Real> Unbalance(const CheckedState& given) const {
-    const CheckedState settled = attached->Empty() ? CheckedState() : attached->Settled(given);
-    const CheckedState& state = attached->Empty() ? given : settled;
+    const CheckedState state = attached->Settled(given);
     const std::vector<double> values = check::ValuesOf(state.positions, state.rotations);
     std::vector<check::Real> forces(values.size(), 0.0L);
     for (const auto& element : elements) element->AddForce(values, &forces);
@@ -144,7 +157,11 @@ struct ResidualCheck::Prepared {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
       contacts[i]->AddForces(placed, state.rn[i], state.rt[i], -1.0L, &forces);
     }
-    pins->TakeForces(state.pins, &forces);
+    for (std::size_t k = 0; k < pins.size(); ++k) {
+      const check::Vector force{state.pins[2 * k], state.pins[2 * k + 1]};
+      check::AddTo(&forces, pins[k].first, -1.0L * force);
+      check::AddTo(&forces, pins[k].second, force);
+    }
     attached->GiveToBodies(values, &forces);
     return forces;
   }
@@ -154,7 +171,7 @@ struct ResidualCheck::Prepared {
     check::RequireSize(state.rotations, start.size() - num_positions, "rotations");
     check::RequireSize(state.rn, contacts.size(), "rn");
     check::RequireSize(state.rt, contacts.size(), "rt");
-    check::RequireSize(state.pins, 2 * pins->Count(), "pins");
+    check::RequireSize(state.pins, 2 * pins.size(), "pins");
   }
 
   Scaling scaling;
@@ -166,7 +183,7 @@ struct ResidualCheck::Prepared {
   check::Real largest_stiffness = 0.0L;  // of all nodes, as LargestStiffness()
   std::vector<double> rates;             // of the fixed ones, per unit of the load factor
   std::vector<std::unique_ptr<const check::Element>> elements;
-  std::optional<const check::Pins> pins;
+  std::vector<PreparedPin> pins;
   std::vector<PreparedLoad> loads;
   std::vector<std::unique_ptr<const check::Contact>> contacts;
   std::vector<check::Real> contact_units;

@@ -23,13 +23,11 @@ double Worst(double worst, Real value) {
   return std::max(worst, static_cast<double>(value));
 }
 
-bool AllFinite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
-
 bool AllFinite(const CheckedState& state) {
-  return std::isfinite(state.load_factor) && AllFinite(state.positions) && AllFinite(state.rotations) &&
-         AllFinite(state.rn) && AllFinite(state.rt) && AllFinite(state.pins);
+  bool finite = std::isfinite(state.load_factor);
+  for (const auto* const values : {&state.positions, &state.rotations, &state.rn, &state.rt, &state.pins})
+    for (const double value : *values) finite = finite && std::isfinite(value);
+  return finite;
 }
 
 }  // namespace
@@ -42,9 +40,8 @@ ResidualCheck::~ResidualCheck() = default;
 
 double Residuals::Contact() const {
   double worst = 0.0;
-  for (const double residual : {penetration, tensile_reaction, complementarity, cone, friction_law}) {
+  for (const double residual : {penetration, tensile_reaction, complementarity, cone, friction_law})
     worst = Worst(worst, residual);
-  }
   return worst;
 }
 
@@ -79,19 +76,16 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const Real place = scene.start[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
     residuals.support = Worst(residuals.support, std::abs(values[i] - place) * length / scaling.length);
   }
-  if (!scene.attached->Empty()) {
-    const CheckedState settled = scene.attached->Settled(now);
-    for (std::size_t i = 0; i < now.positions.size(); ++i)
-      residuals.support = Worst(residuals.support,
-                                std::abs(static_cast<Real>(now.positions[i]) - settled.positions[i]) / scaling.length);
-    for (std::size_t i = 0; i < now.rotations.size(); ++i)
-      residuals.support =
-          Worst(residuals.support, std::abs(static_cast<Real>(now.rotations[i]) - settled.rotations[i]));
+  const CheckedState settled = scene.attached->Settled(now);
+  const std::vector<double> held = check::ValuesOf(settled.positions, settled.rotations);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Real off = std::abs(static_cast<Real>(values[i]) - held[i]);
+    residuals.support = Worst(residuals.support, i < scene.num_positions ? off / scaling.length : off);
   }
-  for (std::size_t k = 0; k < scene.pins->Count(); ++k) {
+  for (std::size_t k = 0; k < scene.pins.size(); ++k) {
     const Vector given = static_cast<Real>(GiveOfPin(k)) * Vector{now.pins[2 * k], now.pins[2 * k + 1]};
-    Vector apart = scene.pins->Apart(k, now.positions);
-    if (check::Length(given) <= kMostGiven * scaling.length) apart = apart + given;
+    Vector apart = Prepared::Apart(scene.pins[k], now.positions);
+    if (check::Length(given) <= kMostGiven * scaling.length) apart += given;
     residuals.support = Worst(residuals.support, check::Length(apart) / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {

@@ -75,8 +75,8 @@ double ResidualCheck::DrivingForce(const CheckedState& state) const {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const check::Contact& contact = *scene.contacts[i];
     if (contact.TouchedSurface()) continue;  // nothing but nodes moves it
-    const Vector normal = contact.Normal(placed), tangent{normal.y, -normal.x}, velocity = contact.Velocity(placed);
-    force += state.rn[i] * Dot(normal, velocity) + state.rt[i] * Dot(tangent, velocity);
+    const Vector normal = contact.Normal(placed), velocity = contact.Velocity(placed);
+    force += state.rn[i] * Dot(normal, velocity) + state.rt[i] * Dot(Right(normal), velocity);
   }
   return static_cast<double>(force);
 }
@@ -90,15 +90,10 @@ double ResidualCheck::GapPastEnd(std::size_t contact, const CheckedState& state)
 }
 
 double ResidualCheck::Give(std::size_t contact) const {
-  const Scaling& scaling = prepared_->scaling;
-  return prepared_->contacts[contact]->Gives() ? static_cast<double>(check::kGive) * scaling.length / scaling.force
-                                               : 0.0;
+  return prepared_->contacts[contact]->Gives() ? prepared_->Give() : 0.0;
 }
 
-double ResidualCheck::GiveOfPin(std::size_t pin) const {
-  const Scaling& scaling = prepared_->scaling;
-  return prepared_->pins->Gives(pin) ? static_cast<double>(check::kGive) * scaling.length / scaling.force : 0.0;
-}
+double ResidualCheck::GiveOfPin(std::size_t pin) const { return prepared_->pins[pin].gives ? prepared_->Give() : 0.0; }
 
 double ResidualCheck::Uncertain(const CheckedState& state) const {
   const check::PlacedState placed = prepared_->Placed(state);

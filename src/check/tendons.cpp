@@ -1,11 +1,12 @@
-#include "check/tendons.h"
-
+// Tendons and their eyes as the check sees them.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "check/contacts.h"
+#include "check/elements.h"
 #include "check/plane.h"
 
 namespace contact_path::check {
@@ -116,7 +117,6 @@ class String {
     const Vector direction{c * d.x + s * d.y, c * d.y - s * d.x};
     return {direction, Length(second - radii_[i + 1] * Left(direction) - (first - radii_[i] * Left(direction)))};
   }
-  static Real AngleBetween(const Vector& a, const Vector& b) { return std::atan2(Cross(a, b), Dot(a, b)); }
 
   Real EA_, rest_;
   std::size_t num_positions_;
@@ -200,25 +200,18 @@ class EvenStrainElement : public Element {
 
 class EyeContact : public Contact {
  public:
-  EyeContact(std::size_t node, Real friction, String before, String behind)
-      : Contact(node, friction), before_(std::move(before)), behind_(std::move(behind)) {}
+  EyeContact(std::size_t node, const ContactCandidate& of, String before, String behind)
+      : Contact(node, of.friction, of), before_(std::move(before)), behind_(std::move(behind)) {}
 
   Real FrictionIn(const PlacedState& state) const override {
     const std::vector<double> values = state.Values();
-    const Vector in = before_.Direction(values, 0), out = behind_.Direction(values, 0);
-    Real turn = std::atan2(Cross(in, out), Dot(in, out));
+    Real turn = AngleBetween(before_.Direction(values, 0), behind_.Direction(values, 0));
     if (const Real sense = before_.Radius(1); sense != 0.0L) {
       turn = std::copysign(1.0L, sense) * (behind_.Turned(values, 0) - before_.Turned(values, 0));
       turn += before_.WrappedAtStart(1) + behind_.WrappedAtStart(0);
     }
     turn = std::abs(turn);
     return std::tanh(0.5L * Friction() * (turn + kStraight * std::log1p(std::exp(-2.0L * turn / kStraight))));
-  }
-  // What is missing of a length that bears.
-  Real Gap(const PlacedState& state) const override {
-    const std::vector<double> values = state.Values();
-    return std::max<Real>(
-        0.0L, before_.Rest(values) - before_.LengthIn(values) + behind_.Rest(values) - behind_.LengthIn(values));
   }
   Vector Normal(const PlacedState&) const override { return {0.0L, 1.0L}; }
   Real Slip(const PlacedState& from, const PlacedState& to) const override {
@@ -240,6 +233,13 @@ class EyeContact : public Contact {
   }
 
  private:
+  // What is missing of a length that bears.
+  Real Distance(const PlacedState& state) const override {
+    const std::vector<double> values = state.Values();
+    return std::max<Real>(
+        0.0L, before_.Rest(values) - before_.LengthIn(values) + behind_.Rest(values) - behind_.LengthIn(values));
+  }
+
   String before_, behind_;
 };
 
@@ -258,12 +258,9 @@ std::unique_ptr<const Element> MakeEvenStrain(const ContactCandidate& eye, const
 
 std::unique_ptr<const Contact> MakeEye(const ContactCandidate& eye, const Scene& scene, const NodeNumbers& numbers) {
   std::vector<double> reference;
-  for (const Node& node : scene.nodes) {
-    reference.push_back(node.x);
-    reference.push_back(node.y);
-  }
+  for (const Node& node : scene.nodes) reference.insert(reference.end(), {node.x, node.y});
   reference.resize(reference.size() + scene.nodes.size());  // nothing is turned
-  return std::make_unique<EyeContact>(numbers.at(eye.node), eye.friction, PieceAt(eye, 1, scene, numbers, reference),
+  return std::make_unique<EyeContact>(numbers.at(eye.node), eye, PieceAt(eye, 1, scene, numbers, reference),
                                       PieceAt(eye, 0, scene, numbers, reference));
 }
 
