@@ -175,7 +175,8 @@ Modes BranchFinder::OntoPieces(const States& states, double sign) {
     const double along = tangents.first[0].head(NumMotion()).dot(arrival_.direction);
     const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.first[0];
     for (const Limit& limit : system_.OfModes().All()) {
-      if (!system_.OfModes().RuleOf(limit).OfPiece() || !system_.OfModes().IsWeaklyActive(limit, x, tolerance_)) continue;
+      if (!system_.OfModes().RuleOf(limit).OfPiece() || !system_.OfModes().IsWeaklyActive(limit, x, tolerance_))
+        continue;
       const Jet value = system_.ValueAlong(limit, x, first, tangents.second[0]);
       if (LeadingSign({Rate(value.first), Rate(value.second)}) >= 0) continue;
       const auto i = static_cast<std::size_t>(limit.law);
@@ -235,7 +236,8 @@ std::vector<Limit> BranchFinder::Broken(const Eigen::VectorXd& x, const Eigen::V
   const std::optional<Ahead> ahead = LookAhead(x, first, second);
   if (!ahead) return broken;
   for (const Limit& limit : level)
-    if (Rate(system_.OfModes().Rate(limit, ahead->x, ahead->first) / system_.UnitOf(limit)).Sign() < 0) broken.push_back(limit);
+    if (Rate(system_.OfModes().Rate(limit, ahead->x, ahead->first) / system_.UnitOf(limit)).Sign() < 0)
+      broken.push_back(limit);
   return broken;
 }
 

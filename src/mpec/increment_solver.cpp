@@ -189,7 +189,8 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
     }
     if (!kept) continue;
     for (const Limit& limit : active)
-      if (const auto i = static_cast<std::size_t>(limit.law); IsOfSliding(system_.OfModes().RuleOf(limit), laws_[i].In(modes[i])))
+      if (const auto i = static_cast<std::size_t>(limit.law);
+          IsOfSliding(system_.OfModes().RuleOf(limit), laws_[i].In(modes[i])))
         point.modes[i].state = laws_[i].In(modes[i]).held;
     return point;
   }
