@@ -189,7 +189,7 @@ TEST(RestingStructure, SlidesApartOnBothFeet) {
   EXPECT_NEAR(path.increments.back().dissipation, rough_truss::TotalDissipation(), 1e-12);
   const std::vector<BranchRecord>& branches = events[0].event.branches;
   ASSERT_EQ(branches.size(), 3U);
-  EXPECT_EQ(branches[0].states, (std::vector<ContactState>{ContactState::kSlipPlus, ContactState::kSlipMinus}));
+  EXPECT_EQ(branches[0].states, (std::vector<ContactState>{ContactState::kSlipMinus, ContactState::kSlipPlus}));
   EXPECT_EQ(events[0].event.taken, 1);
   EXPECT_NEAR(branches[1].dissipation_rate, branches[2].dissipation_rate, 1e-12);
   EXPECT_NEAR(branches[1].load_rate, branches[2].load_rate, 1e-12);
