@@ -317,6 +317,7 @@ std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<con
       element->AddForce(moved, &forces);
       moved[k] = values[k];
       std::vector<Real> own;
+      own.reserve(components.size());
       for (const std::size_t i : components) own.push_back(forces[i]);
       return own;
     };

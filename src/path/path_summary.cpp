@@ -20,6 +20,7 @@ std::string Counted(int count, const char* what) {
 
 std::string PointsText(const std::vector<CriticalPoint>& points, double load_scale) {
   std::vector<std::string> texts;
+  texts.reserve(points.size());
   for (const CriticalPoint& point : points)
     texts.push_back(std::string(ToString(point.kind)) + " at load factor " +
                     LoadFactorText(point.load_factor, load_scale) + " (increment " + std::to_string(point.index) + ')');

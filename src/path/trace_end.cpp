@@ -96,6 +96,7 @@ Causes NodesInObstacles(const EndedTrace& trace) {
   if (inside.empty()) return {};
   std::stable_sort(inside.begin(), inside.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> deepest;
+  deepest.reserve(inside.size());
   for (auto& [depth, text] : inside) deepest.push_back(std::move(text));
   return {{sentences::kInObstacles, Listed(deepest, kListed, ", ")}};
 }

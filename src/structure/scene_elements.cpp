@@ -272,6 +272,7 @@ class ElementList {
   int Number(const std::string& node) const { return static_cast<int>(index_.Node(node)); }
   std::vector<int> Numbers(const std::vector<std::string>& nodes) const {
     std::vector<int> numbers;
+    numbers.reserve(nodes.size());
     for (const std::string& node : nodes) numbers.push_back(Number(node));
     return numbers;
   }
