@@ -71,9 +71,10 @@ def trace(scene, file, options, seconds):
 
 
 def other_sides(traced):
-    """As the mirror image of it has its states."""
+    """As the mirror image of it has its states. A string slides through an eye, TENDON/2@EYE, along itself, whatever the axes are."""
     def flip(point):
-        return point._replace(**{when: {name: SIDES.get(state, state) for name, state in getattr(point, when).items()}
+        return point._replace(**{when: {name: state if '/' in name else SIDES.get(state, state)
+                                        for name, state in getattr(point, when).items()}
                                  for when in ('before', 'after')})
     return traced._replace(points=[flip(point) for point in traced.points])
 
