@@ -10,9 +10,9 @@ namespace {
 
 // Whether everything that slides goes on in its sense.
 bool SlidesOn(const FixedModeSystem& system, const Eigen::VectorXd& x, const Eigen::VectorXd& first) {
-  const std::vector<Limit> limits = system.OfModes().All();
+  const std::vector<Limit> limits = system.mode_limits().All();
   return std::all_of(limits.begin(), limits.end(), [&](const Limit& limit) {
-    return !system.IsOfRate(limit) || system.OfModes().Rate(limit, x, first) >= -tolerances::kRate;
+    return !system.IsOfRate(limit) || system.mode_limits().Rate(limit, x, first) >= -tolerances::kRate;
   });
 }
 

@@ -174,8 +174,8 @@ Modes BranchFinder::OntoPieces(const States& states, double sign) {
     if (tangents.first.empty()) break;
     const double along = tangents.first[0].head(NumMotion()).dot(arrival_.direction);
     const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.first[0];
-    for (const Limit& limit : system_.OfModes().All()) {
-      if (!system_.OfModes().RuleOf(limit).OfPiece() || !system_.OfModes().IsWeaklyActive(limit, x, tolerance_))
+    for (const Limit& limit : system_.mode_limits().All()) {
+      if (!system_.mode_limits().RuleOf(limit).OfPiece() || !system_.mode_limits().IsWeaklyActive(limit, x, tolerance_))
         continue;
       const Jet value = system_.ValueAlong(limit, x, first, tangents.second[0]);
       if (LeadingSign({Rate(value.first), Rate(value.second)}) >= 0) continue;
@@ -217,9 +217,9 @@ bool BranchFinder::Admissible(const Tangents& tangents, std::size_t k, const Eig
 std::vector<Limit> BranchFinder::Broken(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                                         const Eigen::VectorXd& second, std::size_t most) {
   std::vector<Limit> broken, level;
-  for (const Limit& limit : system_.OfModes().All()) {
+  for (const Limit& limit : system_.mode_limits().All()) {
     if (broken.size() == most) return broken;
-    if (!system_.OfModes().IsWeaklyActive(limit, x, tolerance_)) continue;
+    if (!system_.mode_limits().IsWeaklyActive(limit, x, tolerance_)) continue;
     const Jet along = system_.ValueAlong(limit, x, first, second);
     const double unit = system_.UnitOf(limit);
     Measured rate = Rate(along.first / unit);
@@ -236,7 +236,7 @@ std::vector<Limit> BranchFinder::Broken(const Eigen::VectorXd& x, const Eigen::V
   const std::optional<Ahead> ahead = LookAhead(x, first, second);
   if (!ahead) return broken;
   for (const Limit& limit : level)
-    if (Rate(system_.OfModes().Rate(limit, ahead->x, ahead->first) / system_.UnitOf(limit)).Sign() < 0)
+    if (Rate(system_.mode_limits().Rate(limit, ahead->x, ahead->first) / system_.UnitOf(limit)).Sign() < 0)
       broken.push_back(limit);
   return broken;
 }

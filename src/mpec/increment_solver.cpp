@@ -163,10 +163,10 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
     const double slow = tolerances::kRootOfRounding * Distance(from, point);
     bool kept = true;
     int last = -1;  // law that has changed
-    for (const Limit& limit : system_.OfModes().All()) {
+    for (const Limit& limit : system_.mode_limits().All()) {
       if (limit.law == last) continue;
       const auto i = static_cast<std::size_t>(limit.law);
-      const LimitRule& rule = system_.OfModes().RuleOf(limit);
+      const LimitRule& rule = system_.mode_limits().RuleOf(limit);
       const bool rests = IsOfSliding(rule, laws_[i].In(modes[i])) && !changed[i];
       const double least = rests ? slow : -tolerances::kResidual * rule.unit;
       if (system_.Value(limit, nearest.x) >= least) continue;
@@ -190,7 +190,7 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
     if (!kept) continue;
     for (const Limit& limit : active)
       if (const auto i = static_cast<std::size_t>(limit.law);
-          IsOfSliding(system_.OfModes().RuleOf(limit), laws_[i].In(modes[i])))
+          IsOfSliding(system_.mode_limits().RuleOf(limit), laws_[i].In(modes[i])))
         point.modes[i].state = laws_[i].In(modes[i]).held;
     return point;
   }

@@ -53,8 +53,8 @@ std::string_view SignOfRate(ContactLimit limit) {
 
 // Where the path arrives, along `at`, at a limit that fails by a rate within the tolerance.
 End UnknownRate(const Model& model, const Limit& limit, const FixedModeSystem& system, const CurvePoint& at) {
-  const double unit = system.OfModes().RuleOf(limit).OfForces() ? model.scaling.force : model.scaling.length;
-  const double rate = unit * system.OfModes().Rate(limit, at.x, at.first);
+  const double unit = system.mode_limits().RuleOf(limit).OfForces() ? model.scaling.force : model.scaling.length;
+  const double rate = unit * system.mode_limits().Rate(limit, at.x, at.first);
   const double tolerance = unit * tolerances::kRate * system.UnitOf(limit);
   // Pins have no limits.
   const auto i = static_cast<std::size_t>(limit.law);

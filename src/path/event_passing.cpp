@@ -129,7 +129,7 @@ std::optional<End> EventPassing::LeaveEnd(const ArcStep& at, const BranchChoice*
 bool EventPassing::FailsByRounding(const ArcStep& at) const {
   if (at.event.Kind() != EventKind::kContactEvent || at.step.length > 0.0) return false;
   const Limit& limit = *at.event.fails;
-  const double rate = arc_->system().OfModes().Rate(limit, at.step.end.x, at.step.end.first);
+  const double rate = arc_->system().mode_limits().Rate(limit, at.step.end.x, at.step.end.first);
   return rate < 0.0 && rate >= -tolerances::kRate * arc_->system().UnitOf(limit);
 }
 

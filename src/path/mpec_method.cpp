@@ -243,7 +243,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, double target, Trial* trial)
     const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
     const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
     if (!nearest.converged) continue;
-    const std::vector<Limit> limits = system.OfModes().All();
+    const std::vector<Limit> limits = system.mode_limits().All();
     if (std::any_of(limits.begin(), limits.end(), [&](const Limit& limit) {
           return system.Value(limit, nearest.x) < -tolerances::kResidual * system.UnitOf(limit);
         }))

@@ -76,10 +76,11 @@ Work WorkOfStep(const Model& model, const FixedModeSystem& system, const Step& s
     const StateRule& state = model.laws[i].In(system.modes()[i]);
     for (std::size_t p = 1; state.slides && p < model.laws[i].NumPorts(); ++p) {
       if (!state.ports[p].Follows()) continue;
-      const Quintic force = step.Interpolate(
-          [&](const CurvePoint& at) { return system.InModes().LeadingForceAlong(i, p, at.x, at.first, at.second); });
+      const Quintic force = step.Interpolate([&](const CurvePoint& at) {
+        return system.laws_in_modes().LeadingForceAlong(i, p, at.x, at.first, at.second);
+      });
       const Quintic motion = step.Interpolate(
-          [&](const CurvePoint& at) { return system.InModes().MotionAlong(i, p, at.x, at.first, at.second); });
+          [&](const CurvePoint& at) { return system.laws_in_modes().MotionAlong(i, p, at.x, at.first, at.second); });
       const double taken = -state.ports[p].ratio * integrate(force, motion);
       work.friction += model.laws[i].Holonomic() ? taken : std::max(0.0, taken);
       work.given_back += model.laws[i].Holonomic() ? 0.0 : std::max(0.0, -taken);

@@ -369,7 +369,7 @@ class Jumper {
   double Energy(const PathPoint& point) const { return structure_.Energy(point.u) + laws_.Energy(point); }
 
   bool InequalitiesHold(const Eigen::VectorXd& x) const {
-    const std::vector<Limit> inequalities = arc_.system().OfModes().All();
+    const std::vector<Limit> inequalities = arc_.system().mode_limits().All();
     return std::all_of(inequalities.begin(), inequalities.end(), [&](const Limit& constraint) {
       return arc_.system().Value(constraint, x) >= -arc_.RoundingOf(constraint);
     });

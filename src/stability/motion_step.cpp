@@ -85,8 +85,8 @@ void MotionStepSolver::NoteActing(const PathPoint& from, const Change& change, c
 
 std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::VectorXd& x) const {
   std::vector<Change> changes;
-  for (const Limit& limit : system_.OfModes().All()) {
-    const LimitRule& rule = system_.OfModes().RuleOf(limit);
+  for (const Limit& limit : system_.mode_limits().All()) {
+    const LimitRule& rule = system_.mode_limits().RuleOf(limit);
     double tolerance = tolerances::kActive * rule.unit;
     if (rule.OfForces()) tolerance *= system_.ResidualUnit();
     const double excess = -system_.Value(limit, x) / tolerance;

@@ -38,7 +38,7 @@ TEST_F(DeformableSystem, DerivativesMeetDifferencesInEveryStateOnEveryPatch) {
     for (const int patch : {0, 1, 2, 3, 4})
       for (const bool active : {false, true}) {
         system_.SetModes(ModesOf({state, State::kClosed}, {patch, 4 - patch}), ByPort(random_.Vector(2, -0.3, 0.3)));
-        if (active) system_.SetActive(system_.OfModes().All());
+        if (active) system_.SetActive(system_.mode_limits().All());
         const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
         SCOPED_TRACE(std::string(ToString(state)) + std::to_string(patch));
         ExpectDerivativesMeetDifferences(&system_, x, dx, kStep);
@@ -51,20 +51,20 @@ TEST_F(DeformableSystem, ValuesAlongACurveMeetDifferences) {
                         second = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
   const auto on_curve = [&](double h) { return Eigen::VectorXd(x + h * first + 0.5 * h * h * second); };
   const auto velocity = [&](double h) { return Eigen::VectorXd(first + h * second); };
-  for (const Limit& constraint : system_.OfModes().All()) {
+  for (const Limit& constraint : system_.mode_limits().All()) {
     const auto along = [&](const Eigen::VectorXd& h) {
       return Eigen::Vector2d(system_.Value(constraint, on_curve(h[0])),
-                             system_.OfModes().Rate(constraint, on_curve(h[0]), velocity(h[0])));
+                             system_.mode_limits().Rate(constraint, on_curve(h[0]), velocity(h[0])));
     };
     const Jet jet = system_.ValueAlong(constraint, x, first, second);
     EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), Eigen::Vector2d(jet.first, jet.second),
                            kDerivativeTolerance, kStep));
   }
   const auto sliding = [&](const Eigen::VectorXd& h) {
-    const Jet jet = system_.InModes().LeadingForceAlong(0, kTangent, on_curve(h[0]), velocity(h[0]), second);
+    const Jet jet = system_.laws_in_modes().LeadingForceAlong(0, kTangent, on_curve(h[0]), velocity(h[0]), second);
     return Eigen::Vector2d(jet.value, jet.first);
   };
-  const Jet jet = system_.InModes().LeadingForceAlong(0, kTangent, x, first, second);
+  const Jet jet = system_.laws_in_modes().LeadingForceAlong(0, kTangent, x, first, second);
   EXPECT_TRUE(IsJacobian(sliding, Eigen::VectorXd::Zero(1), Eigen::Vector2d(jet.first, jet.second),
                          kDerivativeTolerance, kStep));
   // Nothing moves with the load factor but the loads.

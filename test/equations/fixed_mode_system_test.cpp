@@ -94,7 +94,7 @@ TEST_F(MixedSystem, DerivativesMeetDifferencesInEveryCombinationOfStates) {
       SCOPED_TRACE("contact " + std::to_string(i) + " " + std::string(ToString(state)));
       system_.SetModes(ModesOf(states), ByPort(reference_));
       ExpectDerivatives();
-      system_.SetActive(system_.OfModes().All());
+      system_.SetActive(system_.mode_limits().All());
       ExpectDerivatives();
       system_.FixLoadFactor(0.3);
       ExpectDerivatives();
@@ -118,10 +118,10 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
   const Eigen::VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 1.0);
   const Eigen::VectorXd along = random.Vector(system.NumUnknowns(), -1.0, 1.0);
   ExpectDerivativesMeetDifferences(&system, x, along);
-  for (const Limit& limit : system.OfModes().All()) {
+  for (const Limit& limit : system.mode_limits().All()) {
     const auto value = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, system.Value(limit, at)); };
     EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
-    EXPECT_NEAR(system.OfModes().Rate(limit, x, along), system.Gradient(limit, x).dot(along), kRounding);
+    EXPECT_NEAR(system.mode_limits().Rate(limit, x, along), system.Gradient(limit, x).dot(along), kRounding);
   }
   // The power of supports and obstacles: that of the reactions on the nodes less what friction takes.
   const PathPoint point = system.Unpack(x);
@@ -165,7 +165,7 @@ TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
     system_.SetModes(ModesOf({state, other, state, other, state == State::kOpen ? State::kOpen : State::kClosed}),
                      ByPort(random_.Vector(5, -0.3, 0.3)));
     for (const bool active : {false, true}) {
-      if (active) system_.SetActive(system_.OfModes().All());
+      if (active) system_.SetActive(system_.mode_limits().All());
       const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
       SCOPED_TRACE(ToString(state));
       ExpectDerivativesMeetDifferences(&system_, x, dx, kStep);
@@ -180,18 +180,18 @@ TEST_F(CurvedSystem, ValuesAlongACurveMeetDifferences) {
                         second = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
   const auto on_curve = [&](double h) { return Eigen::VectorXd(x + h * first + 0.5 * h * h * second); };
   const auto velocity = [&](double h) { return Eigen::VectorXd(first + h * second); };
-  for (const Limit& limit : system_.OfModes().All()) {
+  for (const Limit& limit : system_.mode_limits().All()) {
     const auto value = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
     };
     EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit, x).transpose(), kDerivativeTolerance, kStep));
-    EXPECT_NEAR(system_.OfModes().Rate(limit, x, first), system_.Gradient(limit, x).dot(first), 10.0 * kRounding);
+    EXPECT_NEAR(system_.mode_limits().Rate(limit, x, first), system_.Gradient(limit, x).dot(first), 10.0 * kRounding);
     const auto along = [&](const Eigen::VectorXd& h) {
-      return Eigen::VectorXd::Constant(1, system_.OfModes().Rate(limit, on_curve(h[0]), velocity(h[0])));
+      return Eigen::VectorXd::Constant(1, system_.mode_limits().Rate(limit, on_curve(h[0]), velocity(h[0])));
     };
     const Jet jet = system_.ValueAlong(limit, x, first, second);
     EXPECT_EQ(jet.value, system_.Value(limit, x));
-    EXPECT_EQ(jet.first, system_.OfModes().Rate(limit, x, first));
+    EXPECT_EQ(jet.first, system_.mode_limits().Rate(limit, x, first));
     EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Constant(1, 1, jet.second),
                            kDerivativeTolerance, kStep));
   }
@@ -256,7 +256,7 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
       {3, ContactLimit::kSlip, -slip(3)},
       {4, ContactLimit::kGap, contacts_[4]->Gap(point.u, point.s, 0)},
       {5, ContactLimit::kGap, contacts_[5]->Gap(point.u, point.s, 0)}};
-  const std::vector<Limit> limits = system_.OfModes().All();
+  const std::vector<Limit> limits = system_.mode_limits().All();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {
     EXPECT_EQ(limits[k].law, expected[k].contact) << k;
@@ -269,7 +269,7 @@ TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
   system_.SetModes(
       ModesOf({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen}),
       ByPort(reference_));
-  const std::vector<Limit> limits = system_.OfModes().All();
+  const std::vector<Limit> limits = system_.mode_limits().All();
   const Eigen::VectorXd x = system_.Pack(RandomPoint());
   system_.SetActive(limits);
   system_.FixLoadFactor(0.25);

@@ -92,7 +92,7 @@ TEST_F(NodeOnTwoStrings, DerivativesMeetDifferences) {
     VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 0.4);
     const VectorXd dx = random.Vector(system.NumUnknowns(), -1.0, 1.0);
     ExpectDerivativesMeetDifferences(&system, x, dx);
-    for (const Limit& limit : system.OfModes().All()) {
+    for (const Limit& limit : system.mode_limits().All()) {
       const auto value = [&](const VectorXd& at) { return VectorXd::Constant(1, system.Value(limit, at)); };
       EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
     }

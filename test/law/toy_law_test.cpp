@@ -158,7 +158,7 @@ TEST_F(ToyLawOnSprings, DerivativesMeetDifferencesOnEveryPiece) {
       EXPECT_EQ(system.NumUnknowns() - 4, state == ToyLaw::kHeld ? 3 : state == ToyLaw::kSlides ? 2 : 0);
       EXPECT_EQ(system.NumUnknowns(), system.NumEquations() + 1);
       for (const bool active : {false, true}) {
-        if (active) system.SetActive(system.OfModes().All());
+        if (active) system.SetActive(system.mode_limits().All());
         VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 0.9);
         x[0] += piece;
         const VectorXd dx = random.Vector(system.NumUnknowns(), -1.0, 1.0);

@@ -45,8 +45,8 @@ class FixedModeSystem : public ArcEquations {
   Eigen::Index NumEquations() const override { return layout_.num_equations; }
   Eigen::Index NumMotion() const override { return NumDofs() + 1; }
   Eigen::Index NumDofs() const { return structure_.NumDofs(); }
-  const LawsInModes& InModes() const { return laws_; }
-  const ModeLimits& OfModes() const { return limits_; }
+  const LawsInModes& laws_in_modes() const { return laws_; }
+  const ModeLimits& mode_limits() const { return limits_; }
   const Modes& modes() const { return laws_.modes(); }
   const std::vector<std::size_t>& Acting() const { return laws_.Acting(); }
   const Laws& laws() const { return laws_.laws(); }
