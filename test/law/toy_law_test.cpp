@@ -115,6 +115,7 @@ class ToyLaw : public Law {
     return {Law::Next(mode, id).state, mode.piece + (id == kEnd ? 1 : id == kBegin ? -1 : 0)};
   }
   bool ChangesPiece(int from, int to) const override { return from != to; }
+  std::vector<Ray> Rays(const VectorXd&, double, int, const ActiveSetTolerance&) const override { return {}; }
   Mode Initial(const VectorXd& u, double /*s*/) const override {
     return {u[1] > 0.0 ? kAway : kHeld, static_cast<int>(std::floor(u[0]))};
   }

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <bitset>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "contact_path/law/active_set_tolerance.h"
@@ -78,7 +77,7 @@ struct Ray {
 // where the port gives way by a compliance of its own. The engine relies on this: one state is idle; port 0 is a gap,
 // with a force >= 0, without a reference but that of ReferenceOf(), and held wherever a port follows; it does not
 // dissipate. Ratios and compliances are constants of a state. A law of one state that is not idle has no limits, holds
-// for ever, with forces of any sign, and has no memory: what is not overridden is that of such a law.
+// for ever, with forces of any sign, and has no memory.
 // q stands for (dofs, s) throughout: m + 1 entries with m = Dofs(piece).size() <= kMostLawDofs, the load factor last. u
 // may have more entries than dofs.
 class Law {
@@ -152,21 +151,17 @@ class Law {
   virtual double EnergyAt(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const;
 
   // References at a place from which an arc sets out.
-  virtual PortReals ReferenceAt(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/) const { return {}; }
+  virtual PortReals ReferenceAt(const Eigen::VectorXd& u, double s, int piece) const = 0;
   // The same for the equations of ports that are held with these forces. Where compliances are not its own, the gap of
   // a law that touches to rounding is the reference of port 0: forces begin at nothing there.
   PortReals ReferenceOf(const Eigen::VectorXd& u, double s, const Mode& mode, const PortReals& forces) const;
   // How far an idle law is from its limit, for the search of what an increment may reach.
-  virtual double Reach(const Eigen::VectorXd& /*u*/, double /*s*/) const {
-    return std::numeric_limits<double>::infinity();
-  }
+  virtual double Reach(const Eigen::VectorXd& u, double s) const = 0;
 
   // The modes that may follow at a point: one mode where nothing is at a limit. The mode of now comes first, if it is
   // among them.
-  virtual Modes ModesAt(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& now, const PortReals& /*forces*/,
-                        const ActiveSetTolerance& /*tolerance*/) const {
-    return {now};
-  }
+  virtual Modes ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
+                        const ActiveSetTolerance& tolerance) const = 0;
   // The limits of a mode, and those of other pieces that are near an idle law: an increment is wanted there, and
   // nothing fails.
   virtual void AddLimits(const Mode& mode, int law, std::vector<Limit>* limits) const;
@@ -181,7 +176,7 @@ class Law {
   }
   virtual bool Exists(const Mode& /*mode*/) const { return true; }
   // The mode in which a program starts at a place, without forces, and the mode in a state there.
-  virtual Mode Initial(const Eigen::VectorXd& /*u*/, double /*s*/) const { return {}; }
+  virtual Mode Initial(const Eigen::VectorXd& u, double s) const = 0;
   virtual Mode InState(const Eigen::VectorXd& /*u*/, double /*s*/, int state) const { return {state, 0}; }
   // The mode at the start of a step that comes along in `mode`: pieces may follow each other without an event.
   virtual Mode AtStart(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& mode) const { return mode; }
@@ -193,10 +188,8 @@ class Law {
   // Whether curvatures change from one piece to the other.
   virtual bool ChangesPiece(int /*from*/, int /*to*/) const { return false; }
   // All forces at rest. Asked of what does not give way.
-  virtual std::vector<Ray> Rays(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/,
-                                const ActiveSetTolerance& /*tolerance*/) const {
-    return {};
-  }
+  virtual std::vector<Ray> Rays(const Eigen::VectorXd& u, double s, int piece,
+                                const ActiveSetTolerance& tolerance) const = 0;
 
  protected:
   using Terms = std::bitset<kMostLawDofs + 1>;

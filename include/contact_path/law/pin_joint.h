@@ -3,6 +3,7 @@
 #define CONTACT_PATH_LAW_PIN_JOINT_H_
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,15 @@ class PinJoint : public Law {
                 PortsAt* ports) const override;
   void ForceHessian(const Eigen::VectorXd& u, double s, int piece, const PortReals& forces, const LawVector& weights,
                     LawMatrix* hessian) const override;
+  PortReals ReferenceAt(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/) const override { return {}; }
+  double Reach(const Eigen::VectorXd& /*u*/, double /*s*/) const override {
+    return std::numeric_limits<double>::infinity();  // never idle
+  }
+  Modes ModesAt(const Eigen::VectorXd& /*u*/, double /*s*/, const Mode& now, const PortReals& /*forces*/,
+                const ActiveSetTolerance& /*tolerance*/) const override {
+    return {now};
+  }
+  Mode Initial(const Eigen::VectorXd& /*u*/, double /*s*/) const override { return {}; }
   std::vector<Ray> Rays(const Eigen::VectorXd& u, double s, int piece,
                         const ActiveSetTolerance& tolerance) const override;
 

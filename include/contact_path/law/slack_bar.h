@@ -53,10 +53,15 @@ class SlackBar : public Law {
                 PortsAt* ports) const override;
   void ForceHessian(const Eigen::VectorXd& u, double s, int piece, const PortReals& forces, const LawVector& weights,
                     LawMatrix* hessian) const override;
+  PortReals ReferenceAt(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/) const override { return {}; }
   double Reach(const Eigen::VectorXd& u, double s) const override { return Motion(0, u, s, 0, {}); }
   Modes ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, const PortReals& forces,
                 const ActiveSetTolerance& tolerance) const override;
   Mode Initial(const Eigen::VectorXd& u, double s) const override;
+  std::vector<Ray> Rays(const Eigen::VectorXd& /*u*/, double /*s*/, int /*piece*/,
+                        const ActiveSetTolerance& /*tolerance*/) const override {
+    return {{{1.0}, {1.0}}};
+  }
 
   double EA() const { return EA_; }  // [force]
 
