@@ -45,7 +45,7 @@ void FixedModeJacobian::ForEachCurvatureEntry(const PortsAt& at, const PortReals
 template <typename Emit>
 void FixedModeJacobian::ForEachConstantEntry(Emit emit) const {
   for (Eigen::Index column = 0; column < laws_.NumDofs(); ++column)
-    emit(laws_.NumDofs(), column, -structure_.ReferenceLoad()[column]);
+    emit(laws_.NumDofs(), column, -structure_.Loads().Reference()[column]);
   Eigen::Index k = 0;
   for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
     emit(layout_.first_support + k, prescribed.dof, -1.0);

@@ -75,7 +75,7 @@ void FixedModeSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residu
   const double s = x[NumDofs()];
   residual->resize(NumEquations());
   structure_.InternalForce(x.head(NumDofs()), residual->head(NumDofs()));
-  residual->head(NumDofs()) -= s * structure_.ReferenceLoad() + structure_.ConstantLoad();
+  structure_.Loads().TakeFrom(residual->head(NumDofs()), s);
   laws_.AddForces(x, -1.0, residual);
   for (const MotionEquation& of : layout_.motions) {
     (*residual)[of.equation] = laws_.ValueOf(of.motion, x);
@@ -97,9 +97,7 @@ Eigen::VectorXd FixedModeSystem::Rounding(const Eigen::VectorXd& x) const {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   Eigen::VectorXd rounding =
       Eigen::VectorXd::Constant(NumEquations(), kEpsilon * (1.0 + x.head(NumDofs() + 1).lpNorm<Eigen::Infinity>()));
-  rounding.head(NumDofs()) =
-      structure_.ForceRounding() + kEpsilon * (std::abs(x[NumDofs()]) * structure_.ReferenceLoad().cwiseAbs() +
-                                               structure_.ConstantLoad().cwiseAbs());
+  rounding.head(NumDofs()) = structure_.ForceRounding() + kEpsilon * structure_.Loads().Sizes(x[NumDofs()]);
   for (const std::size_t i : laws_.Acting()) {
     double sum = 0.0;
     for (const double force : laws_.ForcesOf(i, x)) sum += std::abs(force);

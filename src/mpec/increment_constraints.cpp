@@ -1,17 +1,16 @@
-// The constraints of the increment problem, and their derivatives.
-#include "contact_path/mpec/increment_problem.h"
+#include "contact_path/mpec/increment_constraints.h"
 
 namespace contact_path {
 
-Eigen::VectorXd IncrementProblem::Constraints(const Eigen::VectorXd& x) const {
-  const Eigen::Index nd = structure_.NumDofs();
+Eigen::VectorXd IncrementConstraints::Values(const Eigen::VectorXd& x) const {
+  const Eigen::Index nd = slots_.NumDofs();
   Eigen::VectorXd force(nd);
-  structure_.InternalForce(from_.u + goal_.length * x.head(nd), force);
-  force -= (from_.s + goal_.length * x[nd]) * structure_.ReferenceLoad() + structure_.ConstantLoad();
-  force /= goal_.length;
-  Eigen::VectorXd values(num_constraints_);
-  for (const Slot& slot : slots_) {
-    const PortsAt at = ScaledKinematics(slot, x);
+  structure_.InternalForce(slots_.U(x), force);
+  structure_.Loads().TakeFrom(force, slots_.LoadFactor(x));
+  force /= slots_.Length();
+  Eigen::VectorXd values(slots_.NumConstraints());
+  for (const Slot& slot : slots_.All()) {
+    const PortsAt at = slots_.Kinematics(slot, x);
     for (std::size_t p = 0; p < slot.NumForces(); ++p)
       at.AddForce(at[p].gradient, -x[slot.ForceOf(p)] * at[p].factor, &force);
     if (slot.always) {
@@ -28,36 +27,23 @@ Eigen::VectorXd IncrementProblem::Constraints(const Eigen::VectorXd& x) const {
     values.segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
         lambda * mu * rn + slip * rt;
   }
-  for (const Support& support : supports_) {
+  for (const Support& support : slots_.Supports()) {
     const PrescribedDof& prescribed = *support.prescribed;
     force[prescribed.dof] -= x[support.reaction];
-    values[support.row] = (from_.u[prescribed.dof] - prescribed.start - prescribed.rate * from_.s) / goal_.length +
-                          x[prescribed.dof] - prescribed.rate * x[nd];
+    values[support.row] =
+        (slots_.From().u[prescribed.dof] - prescribed.start - prescribed.rate * slots_.From().s) / slots_.Length() +
+        x[prescribed.dof] - prescribed.rate * x[nd];
   }
   values.head(nd) = force;
   return values;
 }
 
-template <typename Visit>
-void IncrementProblem::ForEachVariable(const Slot& slot, Visit visit) const {
-  Eigen::Index k = 0;
-  for (const int dof : slot.dofs) visit(static_cast<Eigen::Index>(dof), k++);
-  visit(structure_.NumDofs(), k);
-}
-
-template <typename Visit>
-void IncrementProblem::ForEachVariableOf(const Slot& slot, std::size_t port, Visit visit) const {
-  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
-    if (slot.law->Moves(port, static_cast<std::size_t>(k))) visit(variable, k);
-  });
-}
-
-void IncrementProblem::AddGap(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
-                              MatrixEntries* entries) const {
+void IncrementConstraints::AddGap(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                  MatrixEntries* entries) const {
   const double rn = x[slot.rn];
-  ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
+  slots_.ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
     const double gradient = at[kNormal].gradient[k];
-    if (variable < structure_.NumDofs()) entries->emplace_back(variable, slot.rn, -at[kNormal].factor * gradient);
+    if (variable < slots_.NumDofs()) entries->emplace_back(variable, slot.rn, -at[kNormal].factor * gradient);
     entries->emplace_back(slot.gap_row, variable, gradient);
     entries->emplace_back(slot.gap_row + 1, variable, gradient * rn);
   });
@@ -65,24 +51,24 @@ void IncrementProblem::AddGap(const Slot& slot, const PortsAt& at, const Eigen::
   if (slot.compliance[kNormal] > 0.0) entries->emplace_back(slot.gap_row, slot.rn, slot.compliance[kNormal]);
 }
 
-void IncrementProblem::AddHeld(const Slot& slot, const PortsAt& at, MatrixEntries* entries) const {
+void IncrementConstraints::AddHeld(const Slot& slot, const PortsAt& at, MatrixEntries* entries) const {
   for (std::size_t p = 0; p < slot.NumForces(); ++p) {
     const Eigen::Index force = slot.ForceOf(p), row = slot.gap_row + static_cast<Eigen::Index>(p);
-    ForEachVariableOf(slot, p, [&](Eigen::Index variable, Eigen::Index k) {
-      if (variable < structure_.NumDofs()) entries->emplace_back(variable, force, -at[p].factor * at[p].gradient[k]);
+    slots_.ForEachVariableOf(slot, p, [&](Eigen::Index variable, Eigen::Index k) {
+      if (variable < slots_.NumDofs()) entries->emplace_back(variable, force, -at[p].factor * at[p].gradient[k]);
       entries->emplace_back(row, variable, at[p].gradient[k]);
     });
     if (slot.compliance[p] > 0.0) entries->emplace_back(row, force, slot.compliance[p]);
   }
 }
 
-void IncrementProblem::AddFriction(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
-                                   MatrixEntries* entries) const {
+void IncrementConstraints::AddFriction(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                       MatrixEntries* entries) const {
   const double slip = at[kTangent].motion, rn = x[slot.rn], rt = x[slot.rt], lambda = x[slot.lambda];
   const double mu = slot.pair->Friction(), gives = slot.compliance[kTangent];
-  ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
+  slots_.ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
     const double gradient = at[kTangent].gradient[k];
-    if (variable < structure_.NumDofs()) entries->emplace_back(variable, slot.rt, -at[kTangent].factor * gradient);
+    if (variable < slots_.NumDofs()) entries->emplace_back(variable, slot.rt, -at[kTangent].factor * gradient);
     entries->emplace_back(slot.friction_row, variable, -gradient);
     entries->emplace_back(slot.friction_row + 1, variable, gradient);
     entries->emplace_back(slot.friction_row + 4, variable, gradient * rt);
@@ -102,36 +88,39 @@ void IncrementProblem::AddFriction(const Slot& slot, const PortsAt& at, const Ei
   entries->emplace_back(slot.friction_row + 4, slot.rt, slip + gives * rt);
 }
 
-MatrixEntries IncrementProblem::Jacobian(const Eigen::VectorXd& x) const {
+void IncrementConstraints::AddTurns(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                    MatrixEntries* entries) const {
+  // r_n and r_t over S, and Hessians times S.
+  LawMatrix change = (x[slot.rn] * at[kNormal].factor) * at[kNormal].hessian;
+  if (slot.rt >= 0) change += (x[slot.rt] * at[kTangent].factor) * at[kTangent].hessian;
+  if (slot.rt >= 0 && at[kTangent].factor_gradient.size() > 0)
+    change += x[slot.rt] * at[kTangent].gradient * at[kTangent].factor_gradient.transpose();
+  slots_.ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
+    if (row == slots_.NumDofs()) return;
+    slots_.ForEachVariable(
+        slot, [&](Eigen::Index column, Eigen::Index b) { entries->emplace_back(row, column, -change(a, b)); });
+  });
+}
+
+MatrixEntries IncrementConstraints::Jacobian(const Eigen::VectorXd& x) const {
   MatrixEntries entries;
-  const Eigen::Index nd = structure_.NumDofs();
-  structure_.Tangent(from_.u + goal_.length * x.head(nd), &tangent_);
+  const Eigen::Index nd = slots_.NumDofs();
+  structure_.Tangent(slots_.U(x), &tangent_);
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
       entries.emplace_back(it.row(), column, it.value());
   for (Eigen::Index row = 0; row < nd; ++row)
-    if (structure_.ReferenceLoad()[row] != 0.0) entries.emplace_back(row, nd, -structure_.ReferenceLoad()[row]);
-  for (const Slot& slot : slots_) {
-    const PortsAt at = ScaledKinematics(slot, x);
+    if (structure_.Loads().Reference()[row] != 0.0) entries.emplace_back(row, nd, -structure_.Loads().Reference()[row]);
+  for (const Slot& slot : slots_.All()) {
+    const PortsAt at = slots_.Kinematics(slot, x);
     if (slot.always)
       AddHeld(slot, at, &entries);
     else
       AddGap(slot, at, x, &entries);
-    if (slot.law->Curved()) {
-      // r_n and r_t over S, and Hessians times S.
-      LawMatrix change = (x[slot.rn] * at[kNormal].factor) * at[kNormal].hessian;
-      if (slot.rt >= 0) change += (x[slot.rt] * at[kTangent].factor) * at[kTangent].hessian;
-      if (slot.rt >= 0 && at[kTangent].factor_gradient.size() > 0)
-        change += x[slot.rt] * at[kTangent].gradient * at[kTangent].factor_gradient.transpose();
-      ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
-        if (row == nd) return;
-        ForEachVariable(slot,
-                        [&](Eigen::Index column, Eigen::Index b) { entries.emplace_back(row, column, -change(a, b)); });
-      });
-    }
+    if (slot.law->Curved()) AddTurns(slot, at, x, &entries);
     if (slot.Frictional()) AddFriction(slot, at, x, &entries);
   }
-  for (const Support& support : supports_) {
+  for (const Support& support : slots_.Supports()) {
     entries.emplace_back(support.prescribed->dof, support.reaction, -1.0);
     entries.emplace_back(support.row, support.prescribed->dof, 1.0);
     entries.emplace_back(support.row, nd, -support.prescribed->rate);
@@ -139,25 +128,24 @@ MatrixEntries IncrementProblem::Jacobian(const Eigen::VectorXd& x) const {
   return entries;
 }
 
-MatrixEntries IncrementProblem::Hessian(const Eigen::VectorXd& x, double factor,
-                                        const Eigen::VectorXd& multipliers) const {
+MatrixEntries IncrementConstraints::Hessian(const Eigen::VectorXd& x, double diagonal,
+                                            const Eigen::VectorXd& multipliers) const {
   MatrixEntries entries;
-  const Eigen::Index nd = structure_.NumDofs();
+  const Eigen::Index nd = slots_.NumDofs();
   // Second order of the equilibrium rows: S times the derivative of the tangent along their multipliers.
-  structure_.TangentDerivative(from_.u + goal_.length * x.head(nd), multipliers.head(nd), &tangent_);
+  structure_.TangentDerivative(slots_.U(x), multipliers.head(nd), &tangent_);
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
       if (it.row() >= column)
-        entries.emplace_back(it.row(), column,
-                             goal_.length * it.value() + (it.row() == column ? factor * goal_.gamma2_factor : 0.0));
-  entries.emplace_back(nd, nd, factor * goal_.gamma2_factor);
-  for (const Slot& slot : slots_) {
-    const PortsAt at = ScaledKinematics(slot, x);
+        entries.emplace_back(it.row(), column, slots_.Length() * it.value() + (it.row() == column ? diagonal : 0.0));
+  entries.emplace_back(nd, nd, diagonal);
+  for (const Slot& slot : slots_.All()) {
+    const PortsAt at = slots_.Kinematics(slot, x);
     const PortReals& gives = slot.compliance;
     if (!slot.always) {
       const double gap_product = multipliers[slot.gap_row + 1];
       if (gives[kNormal] > 0.0) entries.emplace_back(slot.rn, slot.rn, 2.0 * gives[kNormal] * gap_product);
-      ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
+      slots_.ForEachVariableOf(slot, kNormal, [&](Eigen::Index variable, Eigen::Index k) {
         entries.emplace_back(slot.rn, variable, gap_product * at[kNormal].gradient[k]);
       });
     }
@@ -165,7 +153,7 @@ MatrixEntries IncrementProblem::Hessian(const Eigen::VectorXd& x, double factor,
       const double slip_product = multipliers[slot.friction_row + 4];
       if (gives[kTangent] > 0.0) entries.emplace_back(slot.rt, slot.rt, 2.0 * gives[kTangent] * slip_product);
       entries.emplace_back(slot.lambda, slot.rn, slip_product * slot.pair->Friction());
-      ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
+      slots_.ForEachVariableOf(slot, kTangent, [&](Eigen::Index variable, Eigen::Index k) {
         entries.emplace_back(slot.rt, variable, slip_product * at[kTangent].gradient[k]);
       });
     }
@@ -174,38 +162,37 @@ MatrixEntries IncrementProblem::Hessian(const Eigen::VectorXd& x, double factor,
   return entries;
 }
 
-void IncrementProblem::AddCurvature(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
-                                    const Eigen::VectorXd& multipliers, MatrixEntries* entries) const {
-  const Eigen::Index nd = structure_.NumDofs();
+void IncrementConstraints::AddCurvature(const Slot& slot, const PortsAt& at, const Eigen::VectorXd& x,
+                                        const Eigen::VectorXd& multipliers, MatrixEntries* entries) const {
+  const Eigen::Index nd = slots_.NumDofs();
   const Law& law = *slot.law;
-  const bool frictional = slot.Frictional(), deformable = slot.pair != nullptr && slot.pair->Deformable();
   const double rn = x[slot.rn], rt = slot.rt < 0 ? 0.0 : x[slot.rt];
   // The multipliers of the equilibrium equations; the multiplier of the load factor is none.
   const LawVector weights = at.Local(multipliers.head(nd), 0.0);
   for (std::size_t p = 0; p < slot.NumForces(); ++p) {
     LawVector by_force = at[p].factor * (at[p].hessian * weights);
     if (at[p].factor_gradient.size() > 0) by_force += at[p].gradient.dot(weights) * at[p].factor_gradient;
-    ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+    slots_.ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
       entries->emplace_back(slot.ForceOf(p), variable, -by_force[k]);
     });
   }
   PortReals along_port = {multipliers[slot.gap_row], slot.always && slot.rt >= 0 ? multipliers[slot.gap_row + 1] : 0.0};
   if (!slot.always) along_port[kNormal] += multipliers[slot.gap_row + 1] * rn;
-  if (frictional)
+  if (slot.Frictional())
     along_port[kTangent] =
         multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
   LawMatrix second;
-  const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
-  const double s = from_.s + goal_.length * x[nd];
-  const int patch = PatchOf(slot, u, s);
+  const Eigen::VectorXd u = slots_.U(x);
+  const double s = slots_.LoadFactor(x);
+  const int patch = slots_.PatchOf(slot, u, s);
   const LawDofs dofs = law.Dofs(patch);
   law.ForceHessian(u, s, patch, {rn, rt}, LocalOf(dofs, multipliers.head(nd), 0.0), &second);
-  if (deformable) second = Spread(second, dofs, slot.dofs);
+  if (slot.Deformable()) second = Spread(second, dofs, slot.dofs);
   LawMatrix along = along_port[kNormal] * at[kNormal].hessian;
   if (slot.rt >= 0) along += along_port[kTangent] * at[kTangent].hessian;
-  second = along - goal_.length * goal_.length * second;
-  ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
-    ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) {
+  second = along - slots_.Length() * slots_.Length() * second;
+  slots_.ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
+    slots_.ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) {
       if (row >= column) entries->emplace_back(row, column, second(a, b));
     });
   });

@@ -22,7 +22,7 @@ MachineSetting::MachineSetting(const Model& model, double stiffness) {
   machine_.stiffness = stiffness / loads.unit_of_stiffness;
   unit_ = loads.unit_of_displacement;
   row_ = machine_.Row(model.structure);
-  row_ *= model.structure.ReferenceLoad().norm() / (loads.norm * row_.head(model.structure.NumDofs()).norm());
+  row_ *= model.structure.Loads().Reference().norm() / (loads.norm * row_.head(model.structure.NumDofs()).norm());
 }
 
 PathParameter MachineSetting::Parameter(double sense) const {

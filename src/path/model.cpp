@@ -66,7 +66,7 @@ Model::LoadSize Model::SizeOfLoads() const {
   for (const DofMap::Component& of : structure.Dofs().Components()) {
     if (of.dof < 0) continue;
     double& sum = of.field == Field::kRotation ? moments : forces;
-    sum += std::pow(structure.ReferenceLoad()[of.dof], 2);
+    sum += std::pow(structure.Loads().Reference()[of.dof], 2);
   }
   LoadSize size;
   if (forces + moments == 0.0) return size;

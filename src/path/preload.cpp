@@ -77,7 +77,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   const bool stressed = (holding.array().abs() >
                          (tolerances::kMargin * model.structure.ForceRounding().array()).max(tolerances::kRounding))
                             .any();
-  const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
+  const double constant = model.structure.Loads().Constant().lpNorm<Eigen::Infinity>();
   const std::vector<double> overlaps = OverlapsAt(model, preload.point);
   const bool fits = std::any_of(overlaps.begin(), overlaps.end(), [](double overlap) { return overlap > 0.0; });
   if (!stressed && !fits && constant <= 0.0) {

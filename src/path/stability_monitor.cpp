@@ -38,7 +38,7 @@ void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead, co
 void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, const Eigen::MatrixXd& null_directions,
                             std::optional<Eigen::Index> falls) {
   // Where supports or obstacles move besides, or friction changes, f . u does not tell the work along the path.
-  const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
+  const bool loads_alone = model_.structure.Loads().Reference().isZero(0.0) ||
                            (model_.structure.PrescribedDofs().empty() && !IsDriven(model_.scene));
   if (falls && known_ && loads_alone && null_directions.cols() == 0 && problem_.IsSymmetric(point.modes) &&
       !problem_.TouchesWithoutForce(point))
@@ -69,7 +69,7 @@ void StabilityMonitor::Follow(const CurvePoint& at, int falls) {
   };
   // du . K du = (ds/dt) (f . du/dt) along the path: where it is negative, a machine holds one of the directions.
   const Eigen::Index nd = model_.structure.NumDofs();
-  const double along = model_.structure.ReferenceLoad().dot(at.first.head(nd));
+  const double along = model_.structure.Loads().Reference().dot(at.first.head(nd));
   const bool held = falls > 0 && at.first[nd] * along < 0.0;
   arc_.dead = verdict(falls);
   if (held) arc_.dead.direction = at.first.head(nd).normalized();
@@ -87,7 +87,7 @@ double StabilityMonitor::CriticalStiffness(const Verdicts& of, const CurvePoint*
   if (unstable && of.controlled.verdict == Verdict::kStable && of.dead.directions == 1 && at != nullptr) {
     if (at->is_limit) return 0.0;
     const Eigen::Index nd = model_.structure.NumDofs();
-    const double stiffness = -at->first[nd] / model_.structure.ReferenceLoad().dot(at->first.head(nd));
+    const double stiffness = -at->first[nd] / model_.structure.Loads().Reference().dot(at->first.head(nd));
     if (stiffness > 0.0) return stiffness;
   }
   return -1.0;  // not known

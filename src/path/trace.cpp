@@ -162,7 +162,7 @@ class Tracer {
       return EndBy(EndReason::kNumericalFailure, {sentences::kStartNoEquilibrium});
     // Where events are located, reactions are measured by the force unit of the contact; where loads drive the path,
     // the load factor is as small as the reactions, though.
-    const bool measured = request_.options.LocatesEvents() && model_->structure.ReferenceLoad().isZero(0.0);
+    const bool measured = request_.options.LocatesEvents() && model_->structure.Loads().Reference().isZero(0.0);
     const double softest = measured ? tolerances::kDependentColumn : tolerances::kRootOfRounding;
     if (Causes soft = ContactTooSoft(*model_, point_, softest); !soft.empty())
       return EndWith({EndReason::kNotDetermined, std::move(soft)});

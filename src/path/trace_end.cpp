@@ -119,7 +119,7 @@ Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
 // Where constant loads are a weight, and not a disturbance of others, and rounding of the coordinates of stiff parts
 // makes forces that are more than a millionth of them: how large these are.
 Causes LightLoads(const Model& model) {
-  const double weight = model.structure.ConstantLoad().norm();
+  const double weight = model.structure.Loads().Constant().norm();
   const double rounding = model.structure.NumDofs() > 0 ? model.structure.ForceRounding().maxCoeff() : 0.0;
   if (IsDriven(model.scene) || !(weight * model.scaling.load_factor >= kWeight) || !(rounding > kExactLoads * weight))
     return {};

@@ -51,7 +51,7 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
     }
   }
   const Structure& structure = model.structure;
-  work.loads = 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du) +
+  work.loads = structure.Loads().Work(from.s, to.s, du) +
                0.5 * (DrivingForce(model, from) + DrivingForce(model, to)) * (to.s - from.s);
   const double unit = model.scaling.force * model.scaling.length;
   work.friction *= unit;
@@ -87,9 +87,9 @@ Work WorkOfStep(const Model& model, const FixedModeSystem& system, const Step& s
     }
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
-  const auto along = [&](const Eigen::VectorXd& x) { return model.structure.ReferenceLoad().dot(x.head(nd)); };
+  const auto along = [&](const Eigen::VectorXd& x) { return model.structure.Loads().Reference().dot(x.head(nd)); };
   work.loads = integrate(step.InterpolateLinear(load), step.InterpolateLinear(along)) +
-               model.structure.ConstantLoad().dot((step.end.x - step.start.x).head(nd));
+               model.structure.Loads().Constant().dot((step.end.x - step.start.x).head(nd));
   const auto driving = [&](const CurvePoint& at) { return system.DrivingForceAlong(at.x, at.first, at.second); };
   work.loads += integrate(step.Interpolate(driving), step.InterpolateLinear(load));
   const double unit = model.scaling.force * model.scaling.length;

@@ -71,7 +71,7 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
   reactions.boundaries.resize(boundaries_.size());
   Eigen::VectorXd missing(released_.NumDofs());  // phi - s f - f_constant - T r
   released_.InternalForce(u, missing);
-  missing -= point.s * released_.ReferenceLoad() + released_.ConstantLoad();
+  released_.Loads().TakeFrom(missing, point.s);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const double rn = NormalReaction(point, i), rt = TangentialReaction(point, i);
     if (rn == 0.0 && rt == 0.0) continue;

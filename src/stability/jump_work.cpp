@@ -82,7 +82,7 @@ void AddWork(const Structure& structure, const Laws& laws, const PathPoint& from
       if (laws[i].LargestRatio() > 0.0) work->dissipation += OfPort(laws, i, p, from, step, impact, work);
   work->after_impact = impact;
   const Eigen::VectorXd du = to.u - from.u;
-  work->loads += 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du);
+  work->loads += structure.Loads().Work(from.s, to.s, du);
 }
 
 }  // namespace contact_path

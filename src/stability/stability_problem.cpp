@@ -110,7 +110,7 @@ void StabilityProblem::Classify(Modes modes) {
 bool StabilityProblem::Condense(const PathPoint& point) {
   const Eigen::Index nd = structure_.NumDofs();
   const auto count = static_cast<Eigen::Index>(slips_.size());
-  const Eigen::VectorXd& f = structure_.ReferenceLoad();
+  const Eigen::VectorXd& f = structure_.Loads().Reference();
 
   std::vector<HeldStiffness::Slip> slips;
   slips.reserve(slips_.size());
@@ -199,11 +199,11 @@ bool StabilityProblem::Opens(Eigen::VectorXd* direction) const {
 Stability StabilityProblem::Decide(double compliance) const {
   Stability found;
   if (!covered_) return found;
-  const bool dead = !std::isfinite(compliance) || structure_.ReferenceLoad().isZero(0.0);
+  const bool dead = !std::isfinite(compliance) || structure_.Loads().Reference().isZero(0.0);
   // A machine may hold one of the null directions.
-  const Eigen::VectorXd work = null_.transpose() * structure_.ReferenceLoad();
+  const Eigen::VectorXd work = null_.transpose() * structure_.Loads().Reference();
   const bool one_held = !dead && null_.cols() > 0 &&
-                        work.cwiseAbs().maxCoeff() > tolerances::kSameTangent * structure_.ReferenceLoad().norm();
+                        work.cwiseAbs().maxCoeff() > tolerances::kSameTangent * structure_.Loads().Reference().norm();
   const Eigen::Index free = null_.cols() - (one_held ? 1 : 0);
   const bool level = free > 0;
   if (!regular_ && (singular_ || !level)) return found;
@@ -213,7 +213,7 @@ Stability StabilityProblem::Decide(double compliance) const {
     if (sense == 0.0) return found;
     found.verdict = Verdict::kUnstable;
     found.direction = Normalised(sense * null_.col(0));
-    const bool held = !std::isfinite(compliance) && !structure_.ReferenceLoad().isZero(0.0);
+    const bool held = !std::isfinite(compliance) && !structure_.Loads().Reference().isZero(0.0);
     if (const int directions = held ? Decide(0.0).directions : -1; directions >= 0) found.directions = directions + 1;
     return found;
   }
@@ -232,7 +232,7 @@ Stability StabilityProblem::Decide(double compliance) const {
   const double share = dead ? 0.0 : 1.0 / machine;
   const auto falling_mode = [&] {
     const double stiffness = dead ? 0.0 : 1.0 / std::max(compliance, tolerances::kRootOfRounding * stiff_compliance_);
-    return held_.FallingMode(load_compliance_ < 0.0 ? by_load_ : Eigen::VectorXd(), structure_.ReferenceLoad(),
+    return held_.FallingMode(load_compliance_ < 0.0 ? by_load_ : Eigen::VectorXd(), structure_.Loads().Reference(),
                              stiffness);
   };
   const Eigen::Index n0 = held_.negative() - (!dead && !(singular_ && one_held) && machine < 0.0 ? 1 : 0);

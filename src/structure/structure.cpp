@@ -48,7 +48,7 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
     : dofs_(scene.nodes.size()) {
   NumberUnknowns(scene, index, configuration, elements);
   Attach(scene, index);
-  AddLoads(scene, index);
+  loads_ = DeadLoads(scene, index, dofs_);
   for (PlacedElement& placed : elements)
     AddPart(AttachedElement::Wrap(std::move(placed), [this](int node) { return AttachmentOf(node); }));
   BuildPattern();
@@ -112,18 +112,6 @@ void Structure::Attach(const Scene& scene, const SceneIndex& index) {
       const Node& at = scene.nodes[body];
       attachments_[number] = {static_cast<int>(body), {node.x - at.x, node.y - at.y}};
     }
-  }
-}
-
-void Structure::AddLoads(const Scene& scene, const SceneIndex& index) {
-  reference_load_ = Eigen::VectorXd::Zero(NumDofs());
-  constant_load_ = Eigen::VectorXd::Zero(NumDofs());
-  for (const Load& load : scene.loads) {
-    Eigen::VectorXd& total = load.constant ? constant_load_ : reference_load_;
-    const auto node = static_cast<int>(index.Node(load.node));
-    if (const int dof = Dof(node, 0); dof >= 0) total[dof] += load.fx;
-    if (const int dof = Dof(node, 1); dof >= 0) total[dof] += load.fy;
-    if (const int dof = dofs_.Dof(node, Field::kRotation, 0); dof >= 0) total[dof] += load.moment;
   }
 }
 
@@ -264,15 +252,13 @@ Eigen::VectorXd Structure::SupportReactions(const Eigen::Ref<const Eigen::Vector
   if (prescribed_.empty()) return reactions;
   Eigen::VectorXd force(NumDofs());
   InternalForce(u, force);
-  force -= s * reference_load_ + constant_load_;
+  loads_.TakeFrom(force, s);
   for (std::size_t k = 0; k < prescribed_.size(); ++k)
     reactions[static_cast<Eigen::Index>(k)] = force[prescribed_[k].dof];
   return reactions;
 }
 
-Eigen::VectorXd Structure::ForceBounds() const {
-  return reference_load_.cwiseAbs() + constant_load_.cwiseAbs() + StiffnessBounds();
-}
+Eigen::VectorXd Structure::ForceBounds() const { return loads_.Sizes(1.0) + StiffnessBounds(); }
 
 Eigen::VectorXd Structure::StiffnessBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(NumDofs());

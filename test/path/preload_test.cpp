@@ -154,7 +154,7 @@ TEST(Preload, EndsAtALimitPoint) {
     Advance advance;
     advance.increment.emplace();
     advance.increment->point = model.InitialPoint();
-    advance.increment->point.s = 0.25 * model.structure.ConstantLoad().norm();
+    advance.increment->point.s = 0.25 * model.structure.Loads().Constant().norm();
     advance.increment->kind = kind;
     const Preload preload =
         TracePreload(model, 100, [&](const Model&, double) { return std::make_unique<FakeMethod>(true, advance); });
@@ -183,9 +183,9 @@ TEST(Preload, TheModelOfTheMethodLoadsWithTheConstantLoadsOnly) {
   TracePreload(model, 1, [&](const Model& of, double) {
     asked = true;
     EXPECT_EQ(of.scene.loads.size(), 1u);
-    EXPECT_EQ(of.structure.ConstantLoad().norm(), 0.0);
-    EXPECT_EQ(of.structure.ReferenceLoad()[0], 0.0);
-    EXPECT_LT(of.structure.ReferenceLoad()[1], 0.0);
+    EXPECT_EQ(of.structure.Loads().Constant().norm(), 0.0);
+    EXPECT_EQ(of.structure.Loads().Reference()[0], 0.0);
+    EXPECT_LT(of.structure.Loads().Reference()[1], 0.0);
     return std::make_unique<FakeMethod>(true, Advance());
   });
   EXPECT_TRUE(asked);

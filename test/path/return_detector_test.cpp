@@ -28,7 +28,7 @@ class NodeOnTwoFloorsReturns : public testing::Test {
   // At x along the path, with this share of the load on the first floor.
   PathPoint At(double x, double share) const {
     PathPoint point = model_.InitialPoint();
-    const double load = model_.structure.ConstantLoad().norm(), pull = model_.structure.ReferenceLoad().norm();
+    const double load = model_.structure.Loads().Constant().norm(), pull = model_.structure.Loads().Reference().norm();
     Eigen::VectorXd force(point.u.size());
     point.u[0] += x;
     model_.structure.InternalForce(point.u, force);

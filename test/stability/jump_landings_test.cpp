@@ -70,11 +70,11 @@ TraceRequest CurvedBeam(double imperfection) {
 Eigen::VectorXd RestOf(const Structure& structure, const PathPoint& from, double stiffness, double sign) {
   const Eigen::Index n = structure.NumDofs(), supports = static_cast<Eigen::Index>(structure.PrescribedDofs().size());
   const bool rigid = std::isinf(stiffness);
-  const Eigen::VectorXd f = rigid || supports > 0 ? Eigen::VectorXd::Zero(n).eval() : structure.ReferenceLoad();
+  const Eigen::VectorXd f = rigid || supports > 0 ? Eigen::VectorXd::Zero(n).eval() : structure.Loads().Reference();
   Eigen::MatrixXd held = Eigen::MatrixXd::Zero(n, supports + (rigid ? 1 : 0));
   for (Eigen::Index i = 0; i < supports; ++i)
     held(structure.PrescribedDofs()[static_cast<std::size_t>(i)].dof, i) = 1.0;
-  if (rigid) held.col(supports) = structure.ReferenceLoad();
+  if (rigid) held.col(supports) = structure.Loads().Reference();
   const Eigen::MatrixXd all = held.householderQr().householderQ() * Eigen::MatrixXd::Identity(n, n);
   const Eigen::MatrixXd free =
       held.cols() == 0 ? Eigen::MatrixXd::Identity(n, n) : Eigen::MatrixXd(all.rightCols(n - held.cols()));
@@ -90,9 +90,9 @@ Eigen::VectorXd RestOf(const Structure& structure, const PathPoint& from, double
   double time = 1e-3, speed = kRigid;
   for (int i = 0; i < 4000; ++i) {
     structure.InternalForce(u, force);
-    const Eigen::VectorXd pull =
-        free.transpose() * ((from.s - k * structure.ReferenceLoad().dot(u - from.u)) * structure.ReferenceLoad() +
-                            structure.ConstantLoad() - force);
+    const Eigen::VectorXd pull = free.transpose() * ((from.s - k * structure.Loads().Reference().dot(u - from.u)) *
+                                                         structure.Loads().Reference() +
+                                                     structure.Loads().Constant() - force);
     Eigen::MatrixXd matrix = stiffness_at(u);
     matrix.diagonal().array() += 1.0 / time;
     const Eigen::LDLT<Eigen::MatrixXd> factors(matrix);
@@ -245,7 +245,7 @@ TEST(JumpLandings, FrictionOfASlideBehindTheClosingOfAContact) {
     for (int i = 0; i < kPoints; ++i) {
       Eigen::VectorXd force(2);
       model.structure.InternalForce(touches + (i + 0.5) / kPoints * way, force);
-      mean += (force - from.s * model.structure.ReferenceLoad()).dot(Eigen::Vector2d(0.6, 0.8)) / kPoints;
+      mean += (force - from.s * model.structure.Loads().Reference()).dot(Eigen::Vector2d(0.6, 0.8)) / kPoints;
     }
     const double exact = friction * mean * way.norm();
     EXPECT_NEAR(jump.landing->dissipated, exact, 1e-6 * exact) << friction;

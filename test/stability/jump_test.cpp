@@ -71,7 +71,7 @@ TEST_F(TwoDofFriction, IsHeldBelowTheThreshold) {
 // k_c = 0.5: a stiffer machine holds it, a softer one does not.
 TEST_F(TwoDofFriction, AMachineHoldsItFromItsCriticalStiffness) {
   const double unit = model_.scaling.force / model_.scaling.length;  // per unit of f scaled
-  const double f = model_.structure.ReferenceLoad().norm();
+  const double f = model_.structure.Loads().Reference().norm();
   const auto by_machine = [&](double k) {
     Machine machine;
     machine.stiffness = k / unit / (f * f);
@@ -128,7 +128,7 @@ TEST_F(Snap, LandsWhereTheLoadIsTheSame) {
 
 // From the top, s = 0 and y = 0, which is unstable; a machine of half the critical stiffness c h^2.
 TEST_F(Snap, ASoftMachineDrivesIt) {
-  const double f = model_.structure.ReferenceLoad().norm(), unit = model_.scaling.force / model_.scaling.length;
+  const double f = model_.structure.Loads().Reference().norm(), unit = model_.scaling.force / model_.scaling.length;
   Machine machine;
   machine.stiffness = 0.5 * kC * kHeight * kHeight / unit / (f * f);
   const PathPoint from = At(0.0, 0.0);
@@ -138,8 +138,8 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
   // W' = -k y with W' = c y (y^2 - h^2): y^2 = h^2 / 2.
   const PathPoint& to = jump.landing->point;
   EXPECT_NEAR(to.u.y() * model_.scaling.length, -kHeight / std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(to.s - from.s, -machine.stiffness * model_.structure.ReferenceLoad().dot(to.u - from.u), 1e-13);
-  const double mean = 0.5 * (from.s + to.s) * model_.structure.ReferenceLoad().dot(to.u - from.u);
+  EXPECT_NEAR(to.s - from.s, -machine.stiffness * model_.structure.Loads().Reference().dot(to.u - from.u), 1e-13);
+  const double mean = 0.5 * (from.s + to.s) * model_.structure.Loads().Reference().dot(to.u - from.u);
   EXPECT_NEAR(jump.landing->loads, mean, 1e-12);
   EXPECT_GT(jump.landing->energy_released(), 0.0);
   machine.stiffness *= 2.1;

@@ -232,7 +232,7 @@ double TipOfMembrane(const Membrane& of, int cells) {
   Eigen::SparseMatrix<double> tangent = structure.TangentPattern();
   structure.Tangent(structure.Start(), &tangent);
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(tangent);
-  const Eigen::VectorXd moved = factors.solve(structure.ReferenceLoad());
+  const Eigen::VectorXd moved = factors.solve(structure.Loads().Reference());
   const SceneIndex index(scene);
   const auto tip = static_cast<int>(index.Node(GridNode(&scene, 2 * cells, cells).name));
   return moved[structure.Dof(tip, 1)];

@@ -62,8 +62,8 @@ TEST_F(MixedStructure, LoadsAddUpAndThoseOnSupportsAreLeftOut) {
   Eigen::VectorXd reference(6), constant(6);
   reference << 0.5, -0.2, 0.0, 0.0, 0.0, 0.0;
   constant << 0.0, 0.0, 0.7, 0.1, 0.0, 0.0;
-  EXPECT_EQ(structure_.ReferenceLoad(), reference);
-  EXPECT_EQ(structure_.ConstantLoad(), constant);
+  EXPECT_EQ(structure_.Loads().Reference(), reference);
+  EXPECT_EQ(structure_.Loads().Constant(), constant);
 }
 
 TEST_F(MixedStructure, DerivativesMeetDifferences) {

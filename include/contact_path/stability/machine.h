@@ -21,10 +21,10 @@ struct Machine {
   Eigen::VectorXd Row(const Structure& structure) const {
     const Eigen::Index nd = structure.NumDofs();
     Eigen::VectorXd row = Eigen::VectorXd::Unit(nd + 1, nd);
-    const double size = structure.ReferenceLoad().norm(), k = stiffness * size;
+    const double size = structure.Loads().Reference().norm(), k = stiffness * size;
     if (!(k > 0.0)) return row;
     row[nd] = std::isinf(k) ? 0.0 : 1.0 / (1.0 + k);
-    row.head(nd) = (std::isinf(k) ? 1.0 : k / (1.0 + k)) / size * structure.ReferenceLoad();
+    row.head(nd) = (std::isinf(k) ? 1.0 : k / (1.0 + k)) / size * structure.Loads().Reference();
     return row;
   }
 };

@@ -13,6 +13,7 @@
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/attached_element.h"
+#include "contact_path/structure/dead_loads.h"
 #include "contact_path/structure/dof_map.h"
 #include "contact_path/structure/element.h"
 #include "contact_path/structure/place.h"
@@ -51,8 +52,7 @@ class Structure {
   const Attachment* AttachmentOf(int node) const;
   FixedPoint PointOf(int node) const;
   MovingFrame FrameOfBody(int node) const;
-  const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
-  const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
+  const DeadLoads& Loads() const { return loads_; }
   const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
   // Nodes that move obliquely: the number of their prescribed component along x; the next number is their component
   // along y.
@@ -112,7 +112,6 @@ class Structure {
   void NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
                       const std::vector<PlacedElement>& elements);
   void Attach(const Scene& scene, const SceneIndex& index);
-  void AddLoads(const Scene& scene, const SceneIndex& index);
   void AddPart(PlacedElement placed);
   void BuildPattern();
   // By unknown: the sum of the largest stiffnesses of the elements there, at the start.
@@ -128,8 +127,7 @@ class Structure {
   DofMap dofs_;
   Eigen::VectorXd start_values_;  // of all components
   Eigen::VectorXd start_;
-  Eigen::VectorXd reference_load_;
-  Eigen::VectorXd constant_load_;
+  DeadLoads loads_;
   std::vector<PrescribedDof> prescribed_;
   std::vector<std::size_t> oblique_supports_;
   std::vector<Part> parts_;
