@@ -113,6 +113,7 @@ double ForceUnitAbove(double bound) {
 void Law::SetLaw(const Traits& traits, std::vector<StateRule> states) {
   traits_ = traits;
   states_ = std::move(states);
+  if (traits_.num_ports > kMostPorts) throw std::logic_error("law: there are too many ports");
   for (StateRule& state : states_) {
     for (const PortRule& port : state.ports) {
       state.idle = state.idle && port.kind == PortRule::Kind::kFree;
@@ -121,7 +122,12 @@ void Law::SetLaw(const Traits& traits, std::vector<StateRule> states) {
     if (state.slides && !state.ports[0].Holds())
       throw std::logic_error("law: where a port follows, port 0 must be held");
     if (state.held < 0 || state.held >= NumStates()) throw std::logic_error("law: held must be a state");
+    for (const LimitRule& limit : state.limits)
+      if (state.Find(limit.id) != &limit || limit.next < 0 || limit.next >= NumStates())
+        throw std::logic_error("law: a limit must have a number of its own in its state, and a state after it");
   }
+  if (std::count_if(states_.begin(), states_.end(), [](const StateRule& state) { return state.idle; }) > 1)
+    throw std::logic_error("law: only one state may have no forces");
   if (states_.size() > 1 && !CanBeIdle()) throw std::logic_error("law: one of several states must have no forces");
   if (!states_.empty() && !CanBeIdle() && !states_.front().limits.empty())
     throw std::logic_error("law: what always acts must have no limits");

@@ -6,7 +6,6 @@
 
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/sentences.h"
-#include "contact_path/scene/expand.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -60,9 +59,8 @@ End UnknownRate(const Model& model, const Limit& limit, const FixedModeSystem& s
   const auto i = static_cast<std::size_t>(limit.law);
   const bool of_bar = i >= model.LawOfBar(0);
   return {EndReason::kNotDetermined,
-          {{of_bar ? sentences::kBarRateSign : SignOfRate(static_cast<ContactLimit>(limit.id)),
-            of_bar ? OneSidedBars(model.scene)[i - model.LawOfBar(0)].name : model.scene.contacts[i].Name(), rate,
-            tolerance}}};
+          {{of_bar ? sentences::kBarRateSign : SignOfRate(static_cast<ContactLimit>(limit.id)), model.NameOfLaw(i),
+            rate, tolerance}}};
 }
 
 }  // namespace

@@ -144,9 +144,7 @@ Causes IsClamped(const Model& model, const PathPoint& point) {
       given = std::hypot(given, model.laws[i].In(point.modes[i]).ports[p].compliance *
                                     point.forces[model.laws.FirstPort(i) + static_cast<Eigen::Index>(p)]);
     if (given <= kMostGiven) continue;
-    const std::size_t pin = i - std::min(i, model.LawOfPin(0));
-    return {{sentences::kIsClamped, i < model.contacts.size() ? "contact " + model.scene.contacts[i].Name()
-                                                              : "pin " + PinName(model.scene.pins[pin], pin)}};
+    return {{sentences::kIsClamped, (i < model.contacts.size() ? "contact " : "pin ") + model.NameOfLaw(i)}};
   }
   return {};
 }

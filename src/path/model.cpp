@@ -131,10 +131,8 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) state.rn.push_back(NormalReaction(point, i) * scaling.force);
   for (const double rt : TangentialReactions(point)) state.rt.push_back(rt * scaling.force);
-  for (std::size_t pin = 0; pin < pins.size(); ++pin) {
-    const PortReals forces = laws.Of(point.forces, LawOfPin(pin));
+  for (const PortReals& forces : ForcesOfPins(point))
     state.pins.insert(state.pins.end(), {forces[0] * scaling.force, forces[1] * scaling.force});
-  }
   return state;
 }
 
@@ -178,7 +176,23 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   return point;
 }
 
-Reactions Model::ReactionsAt(const PathPoint& point) const { return reactions.At(structure.AllValues(point.u), point); }
+Reactions Model::ReactionsAt(const PathPoint& point) const {
+  return reactions.At(structure.AllValues(point.u), point, ForcesOfPins(point));
+}
+
+std::string Model::NameOfLaw(std::size_t law) const {
+  if (law < contacts.size()) return scene.contacts[law].Name();
+  if (law < LawOfPin(0)) return OneSidedBars(scene)[law - LawOfBar(0)].name;
+  const std::size_t pin = law - LawOfPin(0);
+  return PinName(scene.pins.at(pin), pin);
+}
+
+std::vector<PortReals> Model::ForcesOfPins(const PathPoint& point) const {
+  std::vector<PortReals> forces;
+  forces.reserve(pins.size());
+  for (std::size_t pin = 0; pin < pins.size(); ++pin) forces.push_back(laws.Of(point.forces, LawOfPin(pin)));
+  return forces;
+}
 
 const ElementResponse& Model::Elements() const {
   if (elements_ == nullptr)

@@ -65,7 +65,8 @@ Eigen::Vector2d ReactionProblem::Centre(const TouchedBoundary& boundary, const E
   return point.about + Eigen::Rotation2Dd(point.turn * s) * (point.at - point.about) + s * point.velocity;
 }
 
-Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& point) const {
+Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& point,
+                              const std::vector<PortReals>& pins) const {
   const Eigen::VectorXd u = released_.UnknownsOf(values);
   Reactions reactions;
   reactions.boundaries.resize(boundaries_.size());
@@ -98,10 +99,7 @@ Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& po
   for (std::size_t k = 0; k < pins_.size(); ++k) {
     PortsAt at;
     pins_[k]->Evaluate(u, point.s, 0, {}, &at);
-    // The pins are the last of the laws.
-    const Eigen::Index first = point.forces.size() - 2 * static_cast<Eigen::Index>(pins_.size() - k);
-    for (const Eigen::Index p : {0, 1})
-      at.AddForce(at[static_cast<std::size_t>(p)].gradient, -point.forces[first + p], &missing);
+    for (const std::size_t p : {0U, 1U}) at.AddForce(at[p].gradient, -pins[k][p], &missing);
   }
   for (const SupportedNode& support : supports_) {
     const auto number = static_cast<int>(support.node);

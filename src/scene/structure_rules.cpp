@@ -122,8 +122,10 @@ class StructureRules {
         checker_.Add(path.Key("friction"), NumberText(element.friction), "must be 0 without a node between its ends");
     } else if constexpr (std::is_same_v<Part, Pin>) {
       CheckPinned(nodes, element);
-    } else if constexpr (!std::is_same_v<Part, Solid>) {  // of a mesh, each element has nodes of its own
+    } else if constexpr (std::is_same_v<Part, Beam> || std::is_same_v<Part, Superelement>) {
       CheckNodeList(nodes, element.nodes);
+    } else {
+      static_assert(std::is_same_v<Part, Solid>);  // of a mesh, each element has nodes of its own
     }
     CheckOwnRules(path, element, sound);
   }

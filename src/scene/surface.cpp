@@ -116,9 +116,14 @@ std::string FindMisfit(const Obstacle& obstacle, double radius) {
   const PlanePoints points = PointsOf(obstacle);
   std::optional<Hollow> hollow;
   const bool spline = obstacle.shape == ObstacleShape::kSpline;
-  if (spline) hollow = HollowOfSpline(points, obstacle.closed);
-  if (obstacle.shape == ObstacleShape::kPolyline)
-    hollow = HollowOfPolyline(points, obstacle.closed, FilletsOf(obstacle, points));
+  switch (obstacle.shape) {
+    case ObstacleShape::kHalfPlane:
+    case ObstacleShape::kCircle: break;
+    case ObstacleShape::kPolyline:
+      hollow = HollowOfPolyline(points, obstacle.closed, FilletsOf(obstacle, points));
+      break;
+    case ObstacleShape::kSpline: hollow = HollowOfSpline(points, obstacle.closed); break;
+  }
   if (!hollow || radius < (1.0 - kCancelled) * hollow->radius) return {};
   return "its radius " + Text(radius) + " must be less than the " + (spline ? "radius of curvature " : "fillet ") +
          Text(hollow->radius) + " of the hollow of " + obstacle.name + (spline ? " behind point " : " at point ") +

@@ -234,6 +234,11 @@ class Existing(unittest.TestCase):
         for page in PAGES:
             for name in re.findall(r'(?<![\w/.])' + pattern, page.read_text(encoding='utf-8')):
                 self.assertTrue((ROOT / name).exists() or name.startswith('test_results'), '%s: %s' % (page.name, name))
+        # Sources by their places below include/contact_path and src.
+        for page in PAGES:
+            for name in re.findall(r'`([a-z_]+/[a-z_]+\.(?:h|cpp))`', page.read_text(encoding='utf-8')):
+                self.assertTrue(any((ROOT / below / name).exists() for below in ('include/contact_path', 'src')),
+                                '%s: %s' % (page.name, name))
 
     def test_options_in_commands(self):
         seen = 0

@@ -2,7 +2,9 @@
 #ifndef CONTACT_PATH_PATH_MODEL_H_
 #define CONTACT_PATH_PATH_MODEL_H_
 
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
@@ -67,6 +69,11 @@ struct Model {
   // Places among the laws.
   std::size_t LawOfBar(std::size_t bar) const { return contacts.size() + bar; }
   std::size_t LawOfPin(std::size_t pin) const { return LawOfBar(bars.size()) + pin; }
+
+  // As sentences name it: of a contact, of a bar or a tendon, of a pin.
+  std::string NameOfLaw(std::size_t law) const;
+  // Of the pins, two forces each, scaled.
+  std::vector<PortReals> ForcesOfPins(const PathPoint& point) const;
 
   // Of the bars among the modes of all laws.
   std::vector<BarState> BarStatesIn(const Modes& modes) const;

@@ -35,8 +35,8 @@ class ReactionProblem {
 
   // values: Structure::AllValues() of the point in the structure with its supports. The moment of a support is that at
   // its node. Of a boundary: all reactions on nodes, and their moment about the point p of an obstacle where it is
-  // now, or about the first node of a surface where it is now.
-  Reactions At(const Eigen::VectorXd& values, const PathPoint& point) const;
+  // now, or about the first node of a surface where it is now. pins: their two forces each, scaled.
+  Reactions At(const Eigen::VectorXd& values, const PathPoint& point, const std::vector<PortReals>& pins) const;
 
  private:
   // Where moments of the boundary are about.

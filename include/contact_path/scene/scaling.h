@@ -10,16 +10,18 @@ namespace contact_path {
 // quantity of the scene = scaled quantity x scale. All are positive, change with the units as their quantities do, and
 // depend neither on the order of the parts nor on rotation or reflection of the scene.
 struct Scaling {
-  double length =
-      1.0;             // L: mean initial length of bars and beams; without them, F / mean stiffness, times the power of
-                       // 2 that brings it to the motion by the loads, or to the extent of the nodes, whichever is less
-  double force = 1.0;  // F: geometric mean of EA of bars and EI / length^2 of beams; without them, the largest of the
-                       // norms of reference load and constant loads, mean stiffness x norm of the motions, and
-                       // 1e-4 x mean stiffness x the smallest gap of a contact that does not touch
+  // L: mean initial length of bars, beams, tendons and of all solids as one body, the root of its area. Without them,
+  // the extent of the nodes of rigid bodies, or F / mean stiffness, times the power of 2 that brings it to the motion by
+  // the loads, or to the extent of the nodes, whichever is less.
+  double length = 1.0;
+  // F: geometric mean of EA of bars and tendons, EI / length^2 of beams, E thickness L of the solids. Without them, of
+  // rigid bodies their springs or loads; else the largest of the norms of reference load and constant loads, mean
+  // stiffness x norm of the motions, and 1e-4 x mean stiffness x the smallest gap of a contact that does not touch.
+  double force = 1.0;
   double load_factor = 1.0;  // LoadFactorScale
 };
 
-// Whether length and force follow from the elements alone: a bar, a beam or a solid gives both.
+// Whether length and force follow from the elements alone: a bar, a beam, a solid or a tendon gives both.
 bool HasForceScale(const Scene& scene);
 
 // Twice the largest distance of a node from the mean of all nodes [length]. The scene must have a node.

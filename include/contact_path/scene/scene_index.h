@@ -24,10 +24,10 @@ std::unordered_map<std::string_view, std::size_t> PlacesByName(const std::vector
   return places;
 }
 
-// Sections are numbered through all bars, then all segments of beams; elements through all solids; both from 0. A
-// section is called "bar<place of the bar, from 1>" or "<beam>.<segment, from 1>", an element "<solid>.<element, from
-// 1>". A solid without a name, or with one that is not fit for a column or is that of a solid before it, is called
-// "solid<place>".
+// Sections are numbered through all bars, all segments of beams, then all pieces of tendons; elements through all
+// solids; both from 0. A section is called "bar<place of the bar, from 1>" or "<beam>.<segment, from 1>", an element
+// "<solid>.<element, from 1>". A solid without a name, or with one that is not fit for a column or is that of a solid
+// before it, is called "solid<place>".
 class ElementNames {
  public:
   // scene: expanded (scene/expand.h).

@@ -20,7 +20,7 @@ class LawDofs {
     for (const int dof : dofs) push_back(dof);
   }
 
-  void push_back(int dof) { of_[size_++] = dof; }
+  void push_back(int dof) { of_.at(size_++) = dof; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   int operator[](std::size_t k) const { return of_[k]; }
