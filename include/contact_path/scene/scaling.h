@@ -11,8 +11,8 @@ namespace contact_path {
 // depend neither on the order of the parts nor on rotation or reflection of the scene.
 struct Scaling {
   // L: mean initial length of bars, beams, tendons and of all solids as one body, the root of its area. Without them,
-  // the extent of the nodes of rigid bodies, or F / mean stiffness, times the power of 2 that brings it to the motion by
-  // the loads, or to the extent of the nodes, whichever is less.
+  // the extent of the nodes of rigid bodies, or F / mean stiffness, times the power of 2 that brings it to the motion
+  // by the loads, or to the extent of the nodes, whichever is less.
   double length = 1.0;
   // F: geometric mean of EA of bars and tendons, EI / length^2 of beams, E thickness L of the solids. Without them, of
   // rigid bodies their springs or loads; else the largest of the norms of reference load and constant loads, mean
