@@ -1,6 +1,6 @@
-// Gives the messages of the parts of a scene what scene/scene.h, solid_parts.h and trace_options.h describe and they
-// lack: a field, or a whole message for a new kind of part. What a message has stays as it is. Usage: write_messages
-// DIRECTORY
+// Gives the messages of the parts of a scene what scene.h, slender_parts.h, solid_parts.h, trace_options.h describe and
+// they lack: a field, or a whole message for a new kind of part. What a message has stays as it is. Usage:
+// write_messages DIRECTORY
 //
 // write_messages --fields: prints the fields instead, for write_signatures.py. In a line: the field of a request that
 // holds the part, the field, its type and its comment as in messages, with tabs between them.
