@@ -15,6 +15,26 @@ Eigen::VectorXd Normalised(const Eigen::VectorXd& du) {
   return norm > 0.0 && std::isfinite(norm) ? Eigen::VectorXd(du / norm) : Eigen::VectorXd();
 }
 
+// With the force r of a machine as one more unknown: f . du + compliance r = 0, and -f r in equilibrium.
+Eigen::SparseMatrix<double> WithMachine(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& f,
+                                        double compliance) {
+  const auto row = static_cast<int>(transposed.rows()), column = static_cast<int>(transposed.cols());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(transposed.nonZeros() + 2 * f.size() + 1));
+  for (Eigen::Index equation = 0; equation < column; ++equation)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it; ++it)
+      entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(equation), it.value());
+  for (int i = 0; i < static_cast<int>(f.size()); ++i) {
+    if (f[i] == 0.0) continue;
+    entries.emplace_back(i, column, f[i]);
+    entries.emplace_back(row, i, -f[i]);
+  }
+  entries.emplace_back(row, column, compliance);
+  Eigen::SparseMatrix<double> with(row + 1, column + 1);
+  with.setFromTriplets(entries.begin(), entries.end());
+  return with;
+}
+
 }  // namespace
 
 StabilityProblem::StabilityProblem(const Structure& structure, const Laws& laws)
@@ -39,14 +59,14 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_d
   PathPoint held = point;
   for (const Touching& law : touching_) held.modes[law.number] = law.rubs ? point_.modes[law.number] : law.bears;
   Classify(held.modes);
-  const Eigen::VectorXd x = system_.Pack(held);
-  const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
+  const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(system_.Pack(held));
   singular_ = null_directions.cols() > 0 && slips_.empty();
   null_ = null_directions;
   // Forces that are not unique do not matter where nothing slides.
   regular_ = held_.Set(structure_.NumDofs(), transposed, system_.InFrame(), singular_ ? null_ : Eigen::MatrixXd(),
                        !slips_.empty()) &&
-             Condense(point);
+             Condense(point.u);
+  if (!regular_ && null_.cols() == 0) held_point_ = held;
 }
 
 bool StabilityProblem::IsSymmetric(const Modes& modes) const {
@@ -107,7 +127,7 @@ void StabilityProblem::Classify(Modes modes) {
   if (modes != system_.modes()) system_.SetModes(modes);
 }
 
-bool StabilityProblem::Condense(const PathPoint& point) {
+bool StabilityProblem::Condense(const Eigen::VectorXd& u) {
   const Eigen::Index nd = structure_.NumDofs();
   const auto count = static_cast<Eigen::Index>(slips_.size());
   const Eigen::VectorXd& f = structure_.Loads().Reference();
@@ -141,7 +161,7 @@ bool StabilityProblem::Condense(const PathPoint& point) {
         std::max({stiffest_slip_, along.tail(count).cwiseAbs().maxCoeff(), across.tail(count).cwiseAbs().maxCoeff()});
     w_of_load_[i] = along[0] + across[0];
   }
-  const Eigen::MatrixXd forces = structure_.ArtificialForces(point.u, responses.topRows(nd));
+  const Eigen::MatrixXd forces = structure_.ArtificialForces(u, responses.topRows(nd));
   artificial_ = Eigen::MatrixXd::Zero(count, 1 + count);
   if (forces.isZero(0.0)) return true;
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -165,7 +185,7 @@ double StabilityProblem::PossibleSense() const {
   return slips.maxCoeff() <= rounding ? -1.0 : 0.0;
 }
 
-Stability StabilityProblem::Under(double compliance) const {
+Stability StabilityProblem::Under(double compliance) {
   if (touching_.empty()) return Decide(compliance);
   Stability found = free_->Under(compliance);
   if (found.verdict == Verdict::kStable) return found;
@@ -196,7 +216,18 @@ bool StabilityProblem::Opens(Eigen::VectorXd* direction) const {
   return false;
 }
 
-Stability StabilityProblem::Decide(double compliance) const {
+Stability StabilityProblem::HeldByMachine(double compliance) {
+  const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(system_.Pack(held_point_));
+  regular_ = held_.Set(structure_.NumDofs(), WithMachine(transposed, structure_.Loads().Reference(), compliance),
+                       nullptr, {}, !slips_.empty()) &&
+             Condense(held_point_.u);
+  Stability found;
+  if (regular_) found = Decide(INFINITY);
+  regular_ = false;
+  return found;
+}
+
+Stability StabilityProblem::Decide(double compliance) {
   Stability found;
   if (!covered_) return found;
   const bool dead = !std::isfinite(compliance) || structure_.Loads().Reference().isZero(0.0);
@@ -206,6 +237,7 @@ Stability StabilityProblem::Decide(double compliance) const {
                         work.cwiseAbs().maxCoeff() > tolerances::kSameTangent * structure_.Loads().Reference().norm();
   const Eigen::Index free = null_.cols() - (one_held ? 1 : 0);
   const bool level = free > 0;
+  if (!regular_ && null_.cols() == 0 && !dead) return HeldByMachine(compliance);
   if (!regular_ && (singular_ || !level)) return found;
   if (level && !singular_) {
     // Slips set out along it with the growth rate 0, if they are possible.

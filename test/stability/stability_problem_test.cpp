@@ -121,6 +121,32 @@ TEST(StabilityProblemTest, WhatADeadLoadHoldsAMachineNeedNot) {
   EXPECT_EQ(problem.Under(1.0 / (1.001 * k)).verdict, Verdict::kUnstable);
 }
 
+// The load acts on a node that nothing else holds along it: neutral under a dead load.
+TEST(StabilityProblemTest, WhatAMachineAloneHolds) {
+  for (const double stiffness : {-1e3, -1.0, -1e-3, 1e-3, 1.0, 1e3}) {
+    // Of the loaded node along y; of another one; of one that slides.
+    for (const int of : {0, 1, 2}) {
+      Eigen::MatrixXd K = Eigen::MatrixXd::Zero(4, 4);
+      K.diagonal() << 1.0, 1.0, 0.0, 1.0;
+      K(of == 0 ? 3 : of == 1 ? 1 : 0, of == 0 ? 3 : of == 1 ? 1 : 0) = stiffness;
+      const Model model(LinearScene(K, of == 2 ? 1 : 0, 0.5), kUnscaled);
+      StabilityProblem problem(model.structure, model.laws);
+      problem.Set(of == 2 ? Sliding(model, 0.5) : model.InitialPoint(), {});
+      EXPECT_EQ(problem.Under(INFINITY).verdict, Verdict::kNotProved) << stiffness << of;
+      for (const double compliance : {0.0, 1e-3, 1.0, 1e3}) {
+        const Stability found = problem.Under(compliance);
+        EXPECT_EQ(found.verdict, stiffness > 0.0 ? Verdict::kStable : Verdict::kUnstable) << stiffness << of;
+        EXPECT_EQ(found.directions, stiffness > 0.0 ? 0 : 1) << stiffness << of;
+      }
+    }
+  }
+  // It does not hold two such nodes.
+  const Model model(LinearScene(Eigen::Vector4d(0.0, 1.0, 0.0, 1.0).asDiagonal(), 0, 0.0), kUnscaled);
+  StabilityProblem problem(model.structure, model.laws);
+  problem.Set(model.InitialPoint(), {});
+  EXPECT_EQ(problem.Under(1.0).verdict, Verdict::kNotProved);
+}
+
 // Contacts that stick or are open, some of them on what is held already: the dense eigenvalues of what is free tell.
 TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
   int unstable = 0, with_direction = 0, compared = 0;

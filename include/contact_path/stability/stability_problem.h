@@ -57,7 +57,7 @@ class StabilityProblem {
 
   // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
   // control. Without reference loads the machine is rigid already: as with dead loads.
-  Stability Under(double compliance) const;
+  Stability Under(double compliance);
   // Whether the tangent is symmetric in these modes.
   bool IsSymmetric(const Modes& modes) const;
   // Whether something touches without force.
@@ -83,10 +83,12 @@ class StabilityProblem {
 
   std::vector<Touching> TouchingAt(const PathPoint& point, const PathPoint& ahead) const;
   void Classify(Modes modes);
-  Stability Decide(double compliance) const;
+  Stability Decide(double compliance);
+  // Where the equations are singular without it: the machine is one more law, which gives way.
+  Stability HeldByMachine(double compliance);
   // Whether the direction, or where nothing slides its reverse, moves apart all that touches and rubs without force.
   bool Opens(Eigen::VectorXd* direction) const;
-  bool Condense(const PathPoint& point);
+  bool Condense(const Eigen::VectorXd& u);
   // The sense in which the slips of the null direction are those of the contacts; 0: in none.
   double PossibleSense() const;
 
@@ -100,6 +102,7 @@ class StabilityProblem {
   // The same problem with all of them idle, and the point then; the same with all of them in the states of the arc.
   std::unique_ptr<StabilityProblem> free_, as_is_;
   PathPoint point_;
+  PathPoint held_point_;  // with S held, where the equations are singular
 
   std::vector<Slip> slips_;
   bool covered_ = true;            // by the theory: no holonomic law
