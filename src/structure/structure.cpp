@@ -64,7 +64,7 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
 
 void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
                                const std::vector<PlacedElement>& elements) {
-  const std::vector<double>& start = configuration.start;
+  const std::vector<double>&start = configuration.start, &reference = configuration.reference;
   std::vector<bool> rotates;
   for (const Node& node : scene.nodes) rotates.push_back(IsBody(node));
   for (const PlacedElement& placed : elements)
@@ -74,12 +74,14 @@ void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, cons
   std::vector<const SupportMotion*> motions(scene.nodes.size(), nullptr);
   for (const SupportMotion& motion : scene.support_motions) motions[index.Node(motion.node)] = &motion;
 
-  std::vector<double> values, unknowns;
-  const auto add = [&](int node, Field field, int component, double value, bool fixed, double rate) {
+  std::vector<double> values, references, unknowns;
+  const auto add = [&](int node, Field field, int component, double value, double at_reference, bool fixed,
+                       double rate) {
     const bool rests = fixed && rate == 0.0;
     const int dof = dofs_.Add(node, field, component, rests);
     if (fixed && !rests) prescribed_.push_back({dof, value, rate});
     values.push_back(value);
+    references.push_back(at_reference);
     if (!rests) unknowns.push_back(value);
   };
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -88,14 +90,15 @@ void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, cons
     const bool attached = IsAttached(node);
     const SupportMotion motion = attached || motions[i] == nullptr ? SupportMotion() : *motions[i];
     const std::size_t before = prescribed_.size();
-    add(number, Field::kPosition, 0, start[2 * i], attached || node.fixed_x, motion.dx);
-    add(number, Field::kPosition, 1, start[2 * i + 1], attached || node.fixed_y, motion.dy);
+    add(number, Field::kPosition, 0, start[2 * i], reference[2 * i], attached || node.fixed_x, motion.dx);
+    add(number, Field::kPosition, 1, start[2 * i + 1], reference[2 * i + 1], attached || node.fixed_y, motion.dy);
     if (prescribed_.size() == before + 2) oblique_supports_.push_back(before);
     if (rotates[i])
-      add(number, Field::kRotation, 0, configuration.start_rotations[i], attached || node.fixed_rotation,
+      add(number, Field::kRotation, 0, configuration.start_rotations[i], 0.0, attached || node.fixed_rotation,
           motion.rotation);
   }
   start_values_ = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  reference_values_ = Eigen::Map<const Eigen::VectorXd>(references.data(), start_values_.size());
   start_ = Eigen::Map<const Eigen::VectorXd>(unknowns.data(), static_cast<Eigen::Index>(unknowns.size()));
 }
 
@@ -262,18 +265,19 @@ Eigen::VectorXd Structure::ForceBounds() const { return loads_.Sizes(1.0) + Stif
 
 Eigen::VectorXd Structure::StiffnessBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(NumDofs());
-  Scratch room;
-  ForEachPart(start_, [&](const Part& part, const auto& x) {
+  Scratch room, values;
+  for (const Part& part : parts_) {
+    auto x = values.Vector(part.dofs.size());
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      x[static_cast<Eigen::Index>(i)] = reference_values_[part.components[i]];
     auto local = room.Square(part.dofs.size());
     part.element->Tangent(x, local);
     const Eigen::MatrixXd sizes = local.cwiseAbs();
-    // In a later stage supports have moved, and an element that is not yet deformed with them may be inside out.
-    if (!sizes.allFinite()) return;
     for (std::size_t i = 0; i < part.dofs.size(); ++i)
       if (part.dofs[i] >= 0)
         bounds[part.dofs[i]] +=
             part.element->Linear() ? sizes.row(static_cast<Eigen::Index>(i)).sum() : sizes.maxCoeff();
-  });
+  }
   return bounds;
 }
 

@@ -72,12 +72,13 @@ class Structure {
     for (const std::vector<int>& components : bodies_) visit(components);
   }
 
-  // By unknown: an upper bound of the forces on it at the start per unit of a motion of the elements, and of the loads.
+  // By unknown: an upper bound of the forces on it in the reference shape per unit of a motion of the elements, and of
+  // the loads. In a later stage supports have moved: elements between them and the start of a node tell nothing.
   // An element that is not linear may turn: its largest stiffness counts in all directions.
   Eigen::VectorXd ForceBounds() const;
 
   // By unknown, in a scaled structure: what residuals of equilibrium are measured in. 1, and more where the structure
-  // is so stiff at the start that the rounding of coordinates alone makes forces (tolerances::kStiffForce).
+  // is so stiff in its reference shape that the rounding of coordinates alone makes forces (tolerances::kStiffForce).
   const Eigen::VectorXd& ResidualUnits() const { return residual_units_; }
   // At most what rounding of the positions changes a force by, by dof. Scaled.
   const Eigen::VectorXd& ForceRounding() const { return force_rounding_; }
@@ -114,7 +115,7 @@ class Structure {
   void Attach(const Scene& scene, const SceneIndex& index);
   void AddPart(PlacedElement placed);
   void BuildPattern();
-  // By unknown: the sum of the largest stiffnesses of the elements there, at the start.
+  // By unknown: the sum of the largest stiffnesses of the elements there, in the reference shape.
   Eigen::VectorXd StiffnessBounds() const;
   void Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> x) const;
   // Calls visit(part, x) for each part, with its values at u.
@@ -125,7 +126,8 @@ class Structure {
   void Assemble(const Eigen::Ref<const Eigen::VectorXd>& u, Fill fill, Eigen::SparseMatrix<double>* sum) const;
 
   DofMap dofs_;
-  Eigen::VectorXd start_values_;  // of all components
+  Eigen::VectorXd start_values_;      // of all components
+  Eigen::VectorXd reference_values_;  // the same in the reference shape
   Eigen::VectorXd start_;
   DeadLoads loads_;
   std::vector<PrescribedDof> prescribed_;
