@@ -13,7 +13,7 @@ endfunction()
 
 contact_path_add_fuzz_target(read_scene contact_path_core test/support/same_request.cpp)
 contact_path_add_fuzz_target(trace_scene contact_path_mpec test/fuzz/varied_request.cpp test/support/curved_obstacles.cpp test/support/random_bodies.cpp test/support/random_scene.cpp
-  test/support/transformations.cpp)
+  test/support/traced_path.cpp test/support/transformations.cpp)
 target_link_libraries(fuzz_trace_scene PRIVATE GTest::gtest)
 target_compile_definitions(fuzz_trace_scene PRIVATE CONTACT_PATH_QUICK_SCENES)
 if(CONTACT_PATH_ROS)

@@ -170,7 +170,7 @@ ForceRedistributions FindForceRedistributions(const Laws& laws, const PathPoint&
     }
     double unit = 0.0;
     for (const std::size_t i : node.laws) unit = std::max(unit, laws[i].ForceUnit());
-    const double force = tolerance.force * unit;
+    const double force = tolerance.ForceOf(unit);
     const std::vector<Weights> vertices = Vertices(node.edges, TotalForce(node, laws, point), force);
     const std::vector<Weights> others = OtherFaces(node, vertices, PresentWeights(node, laws, point, force));
     // Beside what the nodes before can have.

@@ -127,7 +127,7 @@ std::optional<Limit> RateProblem::Broken(const States& states, const CondensedRa
           value += rule.weights[p] * forces[p];
           rate += rule.weights[p] * rates.force[first_port + static_cast<Eigen::Index>(p)];
         }
-        if (value > active.force * rule.unit) continue;
+        if (value > active.ForceOf(rule.unit)) continue;
       } else {
         const Eigen::Index port = first_port + static_cast<Eigen::Index>(rule.port);
         rate = rule.sign * (rates.motion[port] + rule.compliance * rates.force[port]);

@@ -163,7 +163,10 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   if (at_hand) limits.slowest = kSlow;
   const auto norm = [&](const Eigen::VectorXd& step) {
     if (result.first_step.size() == 0) result.first_step = step;
-    return equations_.Norm(step);
+    // Forces that small compliances alone tell wander though the equations are solved.
+    const bool solved = equations_.Gives() && residual_.lpNorm<Eigen::Infinity>() <=
+                                                  tolerances::kRounding * (1.0 + result.x.lpNorm<Eigen::Infinity>());
+    return solved ? std::min(equations_.Norm(step), step.head(NumMotion()).norm()) : equations_.Norm(step);
   };
   NewtonCourse course = NewtonLoop(limits, !at_hand, next, norm, &result.x, &step_);
   result.iterations = course.iterations;

@@ -147,8 +147,8 @@ bool ContactPair::Passed(const Eigen::VectorXd& u, double s, const Mode& mode) c
 std::vector<ContactState> ContactPair::StatesAt(const Eigen::VectorXd& u, double s, int patch, ContactState now,
                                                 double rn, double rt, const ActiveSetTolerance& tolerance) const {
   if (Gap(u, s, patch) > tolerance.motion) return {ContactState::kOpen};
-  const double force = tolerance.force * ForceUnit();
-  const bool loaded = rn > tolerance.force * NormalForceUnit();
+  const double force = tolerance.ForceOf(ForceUnit());
+  const bool loaded = rn > tolerance.ForceOf(NormalForceUnit());
   const double slipped = Slipped(u, s, patch);
   std::vector<ContactState> options;
   if (!Frictional()) {

@@ -39,7 +39,8 @@ bool ModeLimits::BeyondReach(const Eigen::VectorXd& x) const {
 bool ModeLimits::IsWeaklyActive(const Limit& limit, const Eigen::VectorXd& x,
                                 const ActiveSetTolerance& tolerance) const {
   const LimitRule& rule = RuleOf(limit);
-  return rule.OfRate() || Value(limit, x) <= (rule.OfForces() ? tolerance.force : tolerance.motion) * rule.unit;
+  return rule.OfRate() ||
+         Value(limit, x) <= (rule.OfForces() ? tolerance.ForceOf(rule.unit) : tolerance.motion * rule.unit);
 }
 
 PortMotion ModeLimits::MotionOf(const Limit& limit) const {

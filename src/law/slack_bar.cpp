@@ -188,7 +188,7 @@ Modes SlackBar::ModesAt(const Eigen::VectorXd& u, double s, const Mode& now, con
   const double motion = Motion(0, u, s, 0, {});
   if (motion > tolerance.motion) return {{kSlack, 0}};
   // The motion shows the force of a soft bar.
-  if (motion < -tolerance.motion || forces[0] > tolerance.force * ForceUnit()) return {{kTaut, 0}};
+  if (motion < -tolerance.motion || forces[0] > tolerance.ForceOf(ForceUnit())) return {{kTaut, 0}};
   return now.state == kTaut ? Modes{{kTaut, 0}, {kSlack, 0}} : Modes{{kSlack, 0}, {kTaut, 0}};
 }
 

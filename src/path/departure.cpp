@@ -66,6 +66,7 @@ End UnknownRate(const Model& model, const Limit& limit, const FixedModeSystem& s
 }  // namespace
 
 void RecordBranches(const Model& model, const std::vector<Branch>& branches, EventRecord* record) {
+  record->branches.clear();
   for (const Branch& branch : branches)
     record->branches.push_back({ContactStatesOf(branch.modes, model.contacts.size()), branch.load_rate,
                                 branch.parameter_rate, branch.dissipation_rate, branch.turn,

@@ -34,29 +34,46 @@ std::optional<End> EventPassing::Pass(const ArcStep& at, const Before& before, A
   facts->smooth_limit = kind == EventKind::kLimitPoint;
   if (facts->smooth_limit && at.event.crossing) {
     increment->event.null_vector = CrossingPath(*at.event.crossing);
-    const bool turns =
-        limit_->parameter().Sense(current_->first, current_->second, arc_->NumMotion(), tolerances::kRate) < 0;
-    if (!limit_->IsFollowed() && turns) return PassBifurcation(at, increment, facts);
+    if (!limit_->IsFollowed()) return PassBifurcation(at, increment, facts);
   }
   return options_.ChoiceAt(before_.increments, 0) == nullptr ? std::nullopt : PassChoice(at, increment, facts);
 }
 
-std::size_t EventPassing::StableBranch(const std::vector<Branch>& branches) {
+Verdict EventPassing::VerdictAlong(const CurveDerivatives& curve) {
   const Eigen::Index n = arc_->NumMotion();
+  // Stiffness grows with the square of the distance: near the point, stiff parts may hide it.
+  for (double length = kAhead * options_.step; length <= std::max(kAhead, options_.step); length *= 2.0) {
+    const Eigen::VectorXd ahead = current_->x + length * curve.first + 0.5 * length * length * curve.second;
+    const Correction there = arc_->CorrectOnPlane(ahead, curve.first.head(n));
+    if (!there.converged || !(limit_->parameter().Rate(there.x - current_->x, n) > 0.0)) return Verdict::kNotProved;
+    if (limit_->monitor() == nullptr) return Verdict::kStable;
+    const Verdict verdict = limit_->monitor()->At(arc_->system().Unpack(there.x)).verdict;
+    if (verdict != Verdict::kNotProved) return verdict;
+  }
+  return Verdict::kNotProved;
+}
+
+std::size_t EventPassing::StableBranch(const std::vector<Branch>& branches) {
   const auto leads_on = [&](const Branch& branch) {
-    if (limit_->parameter().Sense(branch.first, branch.second, n, tolerances::kRate) < 0) return false;
-    // Stiffness grows with the square of the distance: near the point, stiff parts may hide it.
-    for (double length = kAhead * options_.step; length <= std::max(kAhead, options_.step); length *= 2.0) {
-      const Eigen::VectorXd ahead = current_->x + length * branch.first + 0.5 * length * length * branch.second;
-      const Correction there = arc_->CorrectOnPlane(ahead, branch.first.head(n));
-      if (!there.converged || !(limit_->parameter().Rate(there.x - current_->x, n) > 0.0)) return false;
-      if (limit_->monitor() == nullptr) return true;
-      const Verdict verdict = limit_->monitor()->At(arc_->system().Unpack(there.x)).verdict;
-      if (verdict != Verdict::kNotProved) return verdict == Verdict::kStable;
-    }
-    return false;
+    return limit_->parameter().Sense(branch.first, branch.second, arc_->NumMotion(), tolerances::kRate) >= 0 &&
+           VerdictAlong({branch.first, branch.second}) == Verdict::kStable;
   };
   return static_cast<std::size_t>(std::find_if(branches.begin(), branches.end(), leads_on) - branches.begin());
+}
+
+std::optional<End> EventPassing::LeaveStable(const ArcStep& at, AcceptedPoint* increment) {
+  std::optional<End> end = LeaveEnd(at, nullptr, increment);
+  const auto unstable = [&] { return VerdictAlong({current_->first, current_->second}) == Verdict::kUnstable; };
+  if (end || limit_->IsFollowed() || limit_->monitor() == nullptr || !unstable()) return end;
+  const int taken = increment->event.taken;
+  BranchChoice choice;
+  for (const BranchRecord& branch : std::vector<BranchRecord>(increment->event.branches)) {
+    if (++choice.branch == taken || !(branch.parameter_rate > tolerances::kRate)) continue;
+    if (!LeaveEnd(at, &choice, increment) && VerdictAlong({current_->first, current_->second}) == Verdict::kStable)
+      return std::nullopt;
+  }
+  choice.branch = taken;
+  return LeaveEnd(at, &choice, increment);
 }
 
 std::optional<End> EventPassing::PassBifurcation(const ArcStep& at, AcceptedPoint* increment, EventFacts* facts) {
@@ -97,7 +114,8 @@ std::optional<End> EventPassing::PassContactEvent(const ArcStep& at, AcceptedPoi
     return End{EndReason::kPathEnd,
                {{lost.OnSurface() ? sentences::kSlidesOffSurface : sentences::kSlidesOffObstacle, lost.Name()}}};
   }
-  std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(before_.increments, number_), increment);
+  const BranchChoice* const choice = options_.ChoiceAt(before_.increments, number_);
+  std::optional<End> end = choice == nullptr ? LeaveStable(at, increment) : LeaveEnd(at, choice, increment);
   facts->load_turns = !end && TurnsLoad(at);
   return end;
 }

@@ -116,6 +116,11 @@ std::string NearestOpenText(const Model& model, const PathPoint& point, std::siz
          surface.nodes[nearest] + ")";
 }
 
+// Whether a node, or the body that it is of, is among those that move freely.
+bool IsAmong(const std::vector<std::string>& free_nodes, const Model& model, const std::string& node) {
+  return Has(free_nodes, node) || Has(free_nodes, model.scene.nodes[model.index.Node(node)].body);
+}
+
 // Of the candidates with a node that moves freely, or with a surface that has one, the nearest, where all are open.
 std::string NearestOpen(const Model& model, const PathPoint& point, const std::vector<std::string>& free_nodes) {
   std::optional<std::size_t> nearest;
@@ -127,7 +132,8 @@ std::string NearestOpen(const Model& model, const PathPoint& point, const std::v
       const BoundarySurface& surface = model.scene.surfaces[model.index.Surface(candidate.surface)];
       nodes.insert(nodes.end(), surface.nodes.begin(), surface.nodes.end());
     }
-    if (std::none_of(nodes.begin(), nodes.end(), [&](const std::string& node) { return Has(free_nodes, node); }))
+    if (std::none_of(nodes.begin(), nodes.end(),
+                     [&](const std::string& node) { return IsAmong(free_nodes, model, node); }))
       continue;
     const double gap = model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece);
     if (!(gap > tolerances::kActive)) return {};
@@ -151,7 +157,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
     names.nodes.push_back(scene.nodes[static_cast<std::size_t>(node)].name);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactCandidate& contact = scene.contacts[i];
-    if (!Has(names.nodes, contact.node) ||
+    if (!IsAmong(names.nodes, model, contact.node) ||
         model.contacts[i]->Gap(point.u, point.s, point.modes[i].piece) > tolerances::kActive)
       continue;
     names.contacts.push_back(contact.Name());

@@ -52,6 +52,8 @@ class ArcEquations {
 
   // Errors of points grow with it.
   virtual double ResidualUnit() const { return 1.0; }
+  // Whether small compliances alone tell some of the forces.
+  virtual bool Gives() const { return false; }
   // A change of the unknowns with zeros in place of what depends on the axes alone, and the norm of that.
   virtual Eigen::VectorXd Counted(const Eigen::VectorXd& change) const { return change; }
   virtual double Norm(const Eigen::VectorXd& change) const { return Counted(change).norm(); }

@@ -73,7 +73,7 @@ class FixedModeSystem : public ArcEquations {
     return structure_.ObliqueSupports().empty() && !layout_.gives ? change.norm() : Counted(change).norm();
   }
   // Whether forces are told by small compliances alone.
-  bool Gives() const { return layout_.gives; }
+  bool Gives() const override { return layout_.gives; }
   // The pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x) override;
   bool Mixed() const override { return structure_.Mixed(); }

@@ -49,6 +49,8 @@ class EventPassing {
                           EventFacts* facts);
 
  private:
+  // Under the machine, a little further on along a curve from the point on which the path parameter goes on.
+  Verdict VerdictAlong(const CurveDerivatives& curve);
   // The first of the branches from a singular point of the curve on which the path parameter goes on, and which is
   // stable under the machine; their number: none is.
   std::size_t StableBranch(const std::vector<Branch>& branches);
@@ -59,6 +61,9 @@ class EventPassing {
   std::optional<End> PassChoice(const ArcStep& at, AcceptedPoint* increment, EventFacts* facts);
   // Sets out on a branch from the end of the step.
   std::optional<End> LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment);
+  // The same by branch_rule; but where the path is not followed through limits and the machine does not hold that
+  // branch, on the first one that it holds and on which the path parameter goes on.
+  std::optional<End> LeaveStable(const ArcStep& at, AcceptedPoint* increment);
   // Whether a limit fails where the step sets out, by a rate within the tolerance.
   bool FailsByRounding(const ArcStep& at) const;
   // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
