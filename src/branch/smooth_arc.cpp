@@ -81,7 +81,12 @@ void SmoothArc::ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& t
     largest = std::abs(along);
     *first = direction / along;
   }
-  if (tangents.determined || !(equations_.ResidualUnit() > 1.0)) return;
+  if (tangents.determined) return;
+  // What rounding leaves of a motion without stiffness in a direction makes the next equations regular.
+  auto motion = first->head(NumMotion());
+  const double least = tolerances::kDependent * motion.lpNorm<Eigen::Infinity>();
+  motion = (motion.array().abs() > least).select(motion, 0.0).eval();
+  if (!(equations_.ResidualUnit() > 1.0)) return;
   // A free motion changes neither load nor reactions. What rounding leaves of it in the tangent would grow from step to
   // step.
   const Eigen::Index dofs = LoadFactor();
