@@ -185,9 +185,8 @@ class EventVerifier {
     if (event.taken < 1 || event.taken > static_cast<int>(event.branches.size())) return;
     const BranchChoice* const choice = ChoiceFor(now);
     const int wanted = choice == nullptr ? 1 : std::max(choice->branch, 1);
-    // Behind a bifurcation the machine goes on along the curve that is stable.
-    const bool by_machine = choice == nullptr && event.branches[0].turn == 0.0 &&
-                            request_.options.at_limit != AtLimit::kFollow &&
+    // The machine goes on along what it holds.
+    const bool by_machine = choice == nullptr && request_.options.at_limit != AtLimit::kFollow &&
                             event.branches[static_cast<std::size_t>(event.taken) - 1].parameter_rate >= -kRate;
     if (event.taken != wanted && !by_machine)
       findings_.Report("branch ", event.taken, " is taken, but ", wanted, " is wanted");
