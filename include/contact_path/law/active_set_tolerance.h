@@ -15,8 +15,11 @@ struct ActiveSetTolerance {
   double motion = tolerances::kActive;
   double force = tolerances::kActive;
 
-  // Of forces in a unit. Above 1 the unit is what rounding of coordinates makes of them: no tolerance is below it.
-  double ForceOf(double unit) const { return unit * (unit > 1.0 ? tolerances::kActive : force); }
+  // Of forces in a unit. Above 1 the unit is what rounding of coordinates makes of them: where a limit is located, its
+  // value is zero to kResidual units, and counts as zero.
+  double ForceOf(double unit) const {
+    return unit * (unit > 1.0 ? std::max(force, 2.0 * tolerances::kResidual) : force);
+  }
 
   // Where the forces of the path are far below the characteristic force, as in soft parts beside stiff ones, the
   // tolerance follows the forces down to rounding. largest_force: of the path so far; load_factor: now, for the
