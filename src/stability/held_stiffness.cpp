@@ -167,16 +167,14 @@ Eigen::VectorXd HeldStiffness::Influence(const Eigen::VectorXd& weights) const {
   return unsymmetric_.SolveTransposed(with_load).head(nd_);
 }
 
-double HeldStiffness::RoundingAt(Eigen::Index force, const Eigen::VectorXd& du) const {
-  double of_elements = 0.0, of_all = 0.0, squares = 0.0;
+double HeldStiffness::EnergyAt(Eigen::Index force, const Eigen::VectorXd& du) const {
+  double stiffest = 0.0, squares = 0.0;
   for (Eigen::SparseMatrix<double>::InnerIterator dof(forces_, force - nd_); dof; ++dof) {
     squares += du[dof.row()] * du[dof.row()];
     for (Eigen::SparseMatrix<double>::InnerIterator it(saddle_, dof.row()); it && it.row() < nd_; ++it)
-      of_elements = std::max(of_elements, std::abs(it.value()));
-    for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, dof.row()); it; ++it)
-      of_all = std::max(of_all, std::abs(it.value()));
+      stiffest = std::max(stiffest, std::abs(it.value()));
   }
-  return (tolerances::kEqual * of_elements + tolerances::kRounding * of_all) * squares;
+  return stiffest * squares;
 }
 
 Eigen::VectorXd HeldStiffness::FallingMode(const Eigen::VectorXd& likely, const Eigen::VectorXd& f,

@@ -153,7 +153,7 @@ bool StabilityProblem::Condense(const Eigen::VectorXd& u) {
   slip_rounding_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Slip& slip = slips_[static_cast<std::size_t>(i)];
-    slip_rounding_[i] = held_.RoundingAt(slip.following, motions_.col(i));
+    slip_rounding_[i] = tolerances::kEqual * held_.EnergyAt(slip.following, motions_.col(i));
     const Eigen::RowVectorXd along = slip.sense * responses.row(slip.following),
                              across = slip.ratio * responses.row(slip.leading);
     H_.row(i) = (along + across).tail(count);

@@ -42,9 +42,8 @@ class HeldStiffness {
 
   // Of the port with this force, by du.
   double Motion(Eigen::Index force, const Eigen::VectorXd& du) const { return forces_.col(force - nd_).dot(du); }
-  // Of the energy of a motion du: by the largest stiffness where this force acts, of elements, and of all that gives
-  // way.
-  double RoundingAt(Eigen::Index force, const Eigen::VectorXd& du) const;
+  // The largest stiffness where this force acts, times the motion du there squared.
+  double EnergyAt(Eigen::Index force, const Eigen::VectorXd& du) const;
   // Norm of the stiffness against a unit motion of one component of u.
   double StiffnessOf(Eigen::Index dof) const { return stiffness_.col(dof).norm(); }
   // A motion along which the energy of K + machine f f' falls, among the softest ones, by inverse iterations of a
