@@ -203,15 +203,4 @@ Eigen::VectorXd HeldStiffness::FallingMode(const Eigen::VectorXd& likely, const 
   return {};
 }
 
-bool HeldStiffness::Falls(const Eigen::VectorXd& du, const Eigen::VectorXd& f, double machine) const {
-  double energy = machine * std::pow(f.dot(du), 2), terms = energy;
-  for (Eigen::Index column = 0; column < nd_; ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it) {
-      const double term = du[it.row()] * it.value() * du[column];
-      energy += term;
-      terms += std::abs(term);
-    }
-  return energy < -tolerances::kRounding * terms;
-}
-
 }  // namespace contact_path

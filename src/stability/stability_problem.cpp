@@ -262,8 +262,11 @@ Stability StabilityProblem::Decide(double compliance) {
   // What rounding leaves of a compliance that is not negative: of a stiffness without a falling direction.
   if (slips_.empty() && held_.negative() == 0) machine = std::abs(machine);
   const double share = dead ? 0.0 : 1.0 / machine;
-  const double spring = dead ? 0.0 : 1.0 / std::max(compliance, tolerances::kRootOfRounding * stiff_compliance_);
-  const Eigen::VectorXd& f = structure_.Loads().Reference();
+  const auto falling_mode = [&] {
+    const double stiffness = dead ? 0.0 : 1.0 / std::max(compliance, tolerances::kRootOfRounding * stiff_compliance_);
+    return held_.FallingMode(load_compliance_ < 0.0 ? by_load_ : Eigen::VectorXd(), structure_.Loads().Reference(),
+                             stiffness);
+  };
   const Eigen::Index n0 = held_.negative() - (!dead && !(singular_ && one_held) && machine < 0.0 ? 1 : 0);
   if (singular_) {
     found.directions = static_cast<int>(n0 + free);
@@ -274,12 +277,6 @@ Stability StabilityProblem::Decide(double compliance) {
     return found;
   }
   const int sign = dead || machine > 0.0 ? held_.sign() : -held_.sign();
-  Eigen::VectorXd falling;
-  if (n0 > 0) {
-    falling = held_.FallingMode(load_compliance_ < 0.0 ? by_load_ : Eigen::VectorXd(), f, spring);
-    // A direction that rounding counts.
-    if (n0 == 1 && falling.size() > 0 && !held_.Falls(falling, f, spring)) return found;
-  }
 
   if (slips_.empty()) {
     found.directions = static_cast<int>(n0);
@@ -288,7 +285,7 @@ Stability StabilityProblem::Decide(double compliance) {
     } else if (held_.symmetric() || sign < 0) {
       found.verdict = Verdict::kUnstable;
     }
-    found.direction = falling;
+    if (n0 > 0) found.direction = falling_mode();
     if (found.verdict == Verdict::kNotProved) found.directions = -1;
     return found;
   }
@@ -321,7 +318,7 @@ Stability StabilityProblem::Decide(double compliance) {
     const Eigen::VectorXd z = scale.asDiagonal() * fastest->z;
     found.direction = Normalised(motions_ * z - (dead ? 0.0 : share * load_of_slips_.dot(z)) * by_load_);
   } else if (n0 > 0) {
-    found.direction = falling;
+    found.direction = falling_mode();
   }
   return found;
 }

@@ -49,8 +49,6 @@ class HeldStiffness {
   // A motion along which the energy of K + machine f f' falls, among the softest ones, by inverse iterations of a
   // subspace; empty: none is found. likely: one of the motions to begin with, or empty.
   Eigen::VectorXd FallingMode(const Eigen::VectorXd& likely, const Eigen::VectorXd& f, double machine) const;
-  // Whether it falls by more than rounding of its terms.
-  bool Falls(const Eigen::VectorXd& du, const Eigen::VectorXd& f, double machine) const;
 
  private:
   Eigen::Index PlaceOf(Eigen::Index force) const { return places_[static_cast<std::size_t>(force - nd_)]; }
