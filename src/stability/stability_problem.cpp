@@ -92,7 +92,7 @@ std::vector<StabilityProblem::Touching> StabilityProblem::TouchingAt(const PathP
       while (law.In(found.bears).idle) found.bears.state = (found.bears.state + 1) % law.NumStates();
     } else {
       const Eigen::Index force = laws_.FirstPort(i);
-      if (std::max(point.forces[force], ahead.forces[force]) > zero.ForceOf(law.ForceUnit())) continue;
+      if (std::max(point.forces[force], ahead.forces[force]) > zero.force * law.ForceUnit()) continue;
       while (!law.In(found.idle).idle) ++found.idle;
     }
     touching.push_back(found);
