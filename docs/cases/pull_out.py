@@ -99,7 +99,7 @@ def held(path, friction):
     pads, force = [], 0.0
     for k in 1, 2, 3:
         normal = path['rn_l_pad%d@rim' % k][-1]
-        if normal > 1.0e-6:
+        if normal > 1.0e-4:  # the path ends where another pad is about to let go
             angle = atan2(path['y_l_pad%d' % k][-1] - path['y_disc'][-1], path['x_disc'][-1] - path['x_l_pad%d' % k][-1])
             pads.append('%d at %.1f' % (k, 180.0 / numpy.pi * angle))
             force += 2.0 * (friction * cos(angle) + sin(angle)) * normal
