@@ -15,7 +15,8 @@ contact_path_add_fuzz_target(read_scene contact_path_core test/support/same_requ
 contact_path_add_fuzz_target(trace_scene contact_path_mpec test/fuzz/varied_request.cpp test/support/curved_obstacles.cpp test/support/random_bodies.cpp test/support/random_scene.cpp
   test/support/traced_path.cpp test/support/transformations.cpp)
 target_link_libraries(fuzz_trace_scene PRIVATE GTest::gtest)
-target_compile_definitions(fuzz_trace_scene PRIVATE CONTACT_PATH_QUICK_SCENES)
+target_compile_definitions(fuzz_trace_scene PRIVATE CONTACT_PATH_QUICK_SCENES CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes"
+  CONTACT_PATH_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
 if(CONTACT_PATH_ROS)
   # Of the ROS side only what it runs: the rest takes minutes to compile.
   contact_path_add_fuzz_target(convert_request contact_path_core src/ros/convert.cpp src/ros/limits.cpp src/ros/memory_share.cpp

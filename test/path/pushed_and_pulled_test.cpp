@@ -123,8 +123,8 @@ TEST(PushedAndPulled, ADiscOverACurb) {
     }
 }
 
-// A disc between two jaws on springs, 0.02 too near each other, is pulled out over their rounded edges: while both rub,
-// nothing tells how it turns. It leaves them where they close behind it.
+// A disc between two jaws on springs, whose faces are at +-0.98 where nothing presses them, is pulled out over the ends
+// of the faces at x = 0.8: while both rub, nothing tells how it turns. It leaves them where they have closed behind it.
 TEST(PushedAndPulled, ADiscOutOfJaws) {
   for (const double friction : {0.1, 0.4, 0.6})
     for (const double force : {1.0, 1e-3, 4.448}) {
@@ -145,7 +145,6 @@ TEST(PushedAndPulled, ADiscOutOfJaws) {
         face.friction = friction;
         face.points = {0.8, side, -3.0, side};
         if (side < 0.0) std::swap(face.points[0], face.points[2]);
-        face.fillet = 0.05;
         face.body = name;
         scene.obstacles.push_back(face);
         scene.contacts.push_back(Rolls("rim", face.name));
@@ -155,7 +154,7 @@ TEST(PushedAndPulled, ADiscOutOfJaws) {
       const TracedPath path = TraceProved(ChangeUnits(request, 1.0, force));
       const Increment& open = FirstThat(
           path, [](const Increment& increment) { return increment.contacts[0].rn + increment.contacts[1].rn == 0.0; });
-      EXPECT_GT(PositionX(path, open, "hub"), 0.8);
+      EXPECT_NEAR(PositionX(path, open, "hub"), 0.8 + std::sqrt(1.0 - 0.98 * 0.98), kExact);
       EXPECT_EQ(path.increments.back().contacts[0].state, ContactState::kOpen);
     }
 }
@@ -185,6 +184,63 @@ TEST(PushedAndPulled, ASliderPastADetent) {
       }
     EXPECT_EQ(path.increments.front().stability.stability, Verdict::kNotProved);
   }
+}
+
+// Two equal trusses of two bars under one machine of the stiffness 1 come to their limit points at once. One goes on
+// through its own, and the other one back: where one truss alone has the limit load s at the way w, the setting there
+// is sqrt(2) (w + s). Nothing jumps, whatever the step.
+TEST(PushedAndPulled, TwoTrussesAtOneLimitPoint) {
+  const auto trusses = [](int count) {
+    TraceRequest request;
+    Scene& scene = request.scene;
+    std::vector<Load> loads;
+    for (int i = 0; i < count; ++i) {
+      const std::string number = std::to_string(i), top = "top" + number;
+      const double x = 3.0 * i;
+      scene.nodes.insert(
+          scene.nodes.end(),
+          {{"left" + number, x - 1.0, 0.0, true, true}, {"right" + number, x + 1.0, 0.0, true, true}, {top, x, 0.3}});
+      scene.bars.push_back({{"left" + number, top}, 1.0});
+      scene.bars.push_back({{"right" + number, top}, 1.0});
+      loads.push_back({top, 0.0, -1.0});
+    }
+    request.program = {LoadingStage(loads, 0.009)};
+    return request;
+  };
+  TraceRequest alone = trusses(1);
+  alone.program[0].target = 0.05;
+  alone.options.at_limit = AtLimit::kStop;
+  const Increment limit = TraceTo(alone, EndReason::kAtLimit).increments.back();
+  const double way = 0.3 - limit.positions[5], load = limit.load_factor;
+  for (const double step : {0.0, 0.02, 0.003}) {
+    SCOPED_TRACE(step);
+    TraceRequest both = trusses(2);
+    both.program.clear();
+    both.scene.loads = {{"top0", 0.0, -1.0}, {"top1", 0.0, -1.0}};
+    both.options.stop = {{"setting", ">", 0.25}};
+    both.options.at_limit = AtLimit::kJump;
+    both.options.machine_stiffness = 1.0;
+    both.options.step = step;
+    const TracedPath path = TraceProved(both);
+    EXPECT_TRUE(IncrementsOfKind(path, IncrementKind::kJump).empty());
+    const std::vector<Increment> turns = IncrementsOfKind(path, IncrementKind::kCornerLimit);
+    ASSERT_EQ(turns.size(), 1U);
+    EXPECT_NEAR(turns[0].load_factor, load, 1e-10);
+    EXPECT_NEAR(turns[0].setting, std::sqrt(2.0) * (way + load), 1e-9);
+    EXPECT_GT(std::abs(path.increments.back().positions[5] - path.increments.back().positions[11]), 0.1);
+  }
+}
+
+// A block on a slope that is steeper than its friction: the sentence of the end asks for the friction of the floor that
+// the feet of the body touch.
+TEST(PushedAndPulled, ABlockOnASteepSlopeIsToldOfItsFriction) {
+  TraceRequest request;
+  request.scene = BoxOnFloor(1.0, 0.5, 0.3);
+  request.scene.loads = {WeightOf("box", 1.0), LoadOnBody("box", 0.5, 0.0, true), LoadOnBody("box", 1.0, 0.0)};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_FALSE(path.result.reached);
+  EXPECT_NE(path.result.message.find("is the friction of floor (0.3) too small?"), std::string::npos)
+      << path.result.message;
 }
 
 // Levers on springs, each from stop to stop over its centre, under one machine: it holds one of them on its way as long
