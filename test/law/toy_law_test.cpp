@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -227,6 +228,34 @@ TEST_F(ToyLawOnSprings, SlidesFromPieceToPiece) {
       point.modes = set.branches[0].modes;
     }
   }
+}
+
+// The toy with its table changed.
+class Misfit : public ToyLaw {
+ public:
+  template <typename Change>
+  explicit Misfit(Change change) {
+    Traits traits;
+    traits.num_ports = NumPorts();
+    traits.dofs = Dofs(0);
+    std::vector<StateRule> states = {In(kHeld), In(kSlides), In(kAway)};
+    for (StateRule& state : states) state.idle = true, state.slides = false;  // as SetLaw() is given them
+    change(&traits.num_ports, &states);
+    SetLaw(traits, states);
+  }
+};
+
+TEST(LawTest, RefusesWhatTheEngineCannotHave) {
+  using States = std::vector<StateRule>;
+  EXPECT_NO_THROW(Misfit([](std::size_t*, States*) {}));
+  EXPECT_THROW(Misfit([](std::size_t* ports, States*) { *ports = kMostPorts + 1; }), std::logic_error);
+  EXPECT_THROW(Misfit([](std::size_t*, States* states) { states->push_back(states->back()); }), std::logic_error);
+  EXPECT_THROW(
+      Misfit([](std::size_t*, States* states) { states->front().limits[1].id = states->front().limits[0].id; }),
+      std::logic_error);
+  EXPECT_THROW(Misfit([](std::size_t*, States* states) { states->front().limits[0].next = 3; }), std::logic_error);
+  EXPECT_THROW(Misfit([](std::size_t*, States* states) { states->front().held = -1; }), std::logic_error);
+  EXPECT_THROW(Misfit([](std::size_t*, States* states) { states->erase(states->begin() + 2); }), std::logic_error);
 }
 
 }  // namespace

@@ -191,9 +191,7 @@ TEST(PushedAndPulled, ASliderPastADetent) {
 // is sqrt(2) (w + s). Nothing jumps, whatever the step.
 TEST(PushedAndPulled, TwoTrussesAtOneLimitPoint) {
   const auto trusses = [](int count) {
-    TraceRequest request;
-    Scene& scene = request.scene;
-    std::vector<Load> loads;
+    Scene scene;
     for (int i = 0; i < count; ++i) {
       const std::string number = std::to_string(i), top = "top" + number;
       const double x = 3.0 * i;
@@ -202,22 +200,15 @@ TEST(PushedAndPulled, TwoTrussesAtOneLimitPoint) {
           {{"left" + number, x - 1.0, 0.0, true, true}, {"right" + number, x + 1.0, 0.0, true, true}, {top, x, 0.3}});
       scene.bars.push_back({{"left" + number, top}, 1.0});
       scene.bars.push_back({{"right" + number, top}, 1.0});
-      loads.push_back({top, 0.0, -1.0});
+      scene.loads.push_back({top, 0.0, -1.0});
     }
-    request.program = {LoadingStage(loads, 0.009)};
-    return request;
+    return scene;
   };
-  TraceRequest alone = trusses(1);
-  alone.program[0].target = 0.05;
-  alone.options.at_limit = AtLimit::kStop;
-  const Increment limit = TraceTo(alone, EndReason::kAtLimit).increments.back();
+  const Increment limit = TraceTo(RequestUpToALimit(trusses(1)), EndReason::kAtLimit).increments.back();
   const double way = 0.3 - limit.positions[5], load = limit.load_factor;
   for (const double step : {0.0, 0.02, 0.003}) {
     SCOPED_TRACE(step);
-    TraceRequest both = trusses(2);
-    both.program.clear();
-    both.scene.loads = {{"top0", 0.0, -1.0}, {"top1", 0.0, -1.0}};
-    both.options.stop = {{"setting", ">", 0.25}};
+    TraceRequest both = RequestUntil({"setting", ">", 0.25}, trusses(2));
     both.options.at_limit = AtLimit::kJump;
     both.options.machine_stiffness = 1.0;
     both.options.step = step;
