@@ -153,7 +153,9 @@ bool StabilityProblem::Condense(const Eigen::VectorXd& u) {
   slip_rounding_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Slip& slip = slips_[static_cast<std::size_t>(i)];
-    slip_rounding_[i] = tolerances::kEqual * held_.EnergyAt(slip.following, motions_.col(i));
+    // Beside that of the terms, what forces within rounding make: a cord without tension has such a stiffness.
+    slip_rounding_[i] = tolerances::kEqual * held_.EnergyAt(slip.following, motions_.col(i)) +
+                        tolerances::kRounding * motions_.col(i).squaredNorm();
     const Eigen::RowVectorXd along = slip.sense * responses.row(slip.following),
                              across = slip.ratio * responses.row(slip.leading);
     H_.row(i) = (along + across).tail(count);

@@ -159,6 +159,36 @@ TEST(PushedAndPulled, ADiscOutOfJaws) {
     }
 }
 
+// A disc of the weight 1 rolls on a rough floor, drawn by a cord round a drum of half its radius, 40 degrees upwards:
+// it follows without a force, and nothing tells the cord's stiffness. The hand ends at the same cord length.
+TEST(PushedAndPulled, ASpoolFollowsACordWithoutTension) {
+  const double up = 40.0 / 180.0 * std::acos(-1.0), c = std::cos(up), s = std::sin(up);
+  for (const AtLimit at_limit : {AtLimit::kFollow, AtLimit::kStop, AtLimit::kJump})
+    for (const double angle : {0.0, 0.3}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(at_limit) << " " << angle);
+      TraceRequest request;
+      Scene& scene = request.scene;
+      scene.bodies = {{"spool", 0.0, 1.0}};
+      // The cord leaves the drum below, at 0.5 (s, -c) from its middle.
+      scene.nodes = {NodeOf("spool", "hub", 0.0, 1.0),
+                     {"hand", 0.5 * s + 30.0 * c, 1.0 - 0.5 * c + 30.0 * s, true, true}};
+      scene.tendons = {{"cord", {"hub", "hand"}, 1e4}};
+      scene.tendons[0].radii = {0.5, 0.0};
+      scene.tendons[0].turns = {1, 0};
+      scene.obstacles = {Circle("rim", 0.0, 1.0, 1.0, 0.0, "spool"),
+                         {"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.6}};
+      scene.contacts = {Rolls("rim", "floor")};
+      scene.loads = {WeightOf("spool", 1.0)};
+      request.program = {MovingStage({{"hand", c, s}})};
+      request.options.at_limit = at_limit;
+      const TracedPath path = TraceProved(Rotate(request, angle));
+      for (const Increment& increment : path.increments)
+        EXPECT_NE(increment.stability.stability, Verdict::kUnstable) << increment.index;
+      EXPECT_NEAR(path.increments.back().contacts[0].rn, 1.0, kExact);
+      EXPECT_GT(std::abs(path.increments.back().rotations[0]), 1.0);
+    }
+}
+
 // A slider on a guide is driven by a machine against a sprung follower, and past it. Before and behind, nothing but the
 // machine holds it.
 TEST(PushedAndPulled, ASliderPastADetent) {
