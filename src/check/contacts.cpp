@@ -215,8 +215,10 @@ std::vector<bool> PatchesLeftOutFor(const std::string& node, const BoundarySurfa
 using NodeLists = std::vector<std::vector<std::size_t>>;
 
 // The nodes round each element of the solids that have two neighbours of a surface, against its sense, in one element.
-// nodes: of the surface.
-NodeLists ElementsBehind(const std::vector<std::size_t>& nodes, const Scene& scene, const NodeNumbers& numbers) {
+// nodes: of the surface; solids have the nodes of bodies in place of their twins.
+NodeLists ElementsBehind(std::vector<std::size_t> nodes, const Scene& scene, const NodeNumbers& numbers) {
+  for (std::size_t& node : nodes)
+    if (const std::string& of_solid = scene.nodes[node].twin_of; !of_solid.empty()) node = numbers.at(of_solid);
   std::set<std::pair<std::size_t, std::size_t>> edges;
   for (std::size_t i = 1; i < nodes.size(); ++i) edges.insert({nodes[i], nodes[i - 1]});
   NodeLists behind;

@@ -49,9 +49,9 @@ std::array<Vector2d, 3> DeformableBoundary::Places(const SplinePatch& patch, con
 
 bool DeformableBoundary::InSolid(const Vector2d& x, const Eigen::VectorXd& u) const {
   std::vector<Vector2d> corners;
-  return std::any_of(elements_.begin(), elements_.end(), [&](const std::vector<NodePlace>& element) {
+  return std::any_of(elements_.begin(), elements_.end(), [&](const std::vector<MovingPlace>& element) {
     corners.clear();
-    for (const NodePlace& node : element) corners.push_back(node.At(u));
+    for (const MovingPlace& node : element) corners.push_back(node.At(u, 0.0));
     return IsInside(corners, x);
   });
 }

@@ -41,12 +41,12 @@ PlacedBoundary MakeBoundary(const BoundarySurface& surface, const Scene& scene, 
     start.push_back(nodes.back().held);
     placed.initial.emplace_back(scene.nodes[node].x, scene.nodes[node].y);
   }
-  std::vector<std::vector<NodePlace>> elements;
+  std::vector<std::vector<MovingPlace>> elements;
   if (!surface.closed)
     for (const std::vector<std::string_view>& element : ElementsBehind(surface, scene)) {
       elements.emplace_back();
       for (const std::string_view node : element)
-        elements.back().push_back(PlaceOf(structure, static_cast<int>(index.Node(node))));
+        elements.back().emplace_back(structure.PointOf(static_cast<int>(index.Node(node))));
     }
   const auto boundary = std::make_shared<DeformableBoundary>(std::move(nodes), start, surface.closed, surface.radius);
   boundary->SetSolid(std::move(elements));

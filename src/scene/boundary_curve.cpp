@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "contact_path/scene/cell.h"
@@ -103,10 +104,17 @@ std::vector<std::vector<std::string_view>> NodesRoundElements(const Solid& solid
 }
 
 std::vector<std::vector<std::string_view>> ElementsBehind(const BoundarySurface& surface, const Scene& scene) {
+  std::unordered_map<std::string_view, std::string_view> twins;
+  for (const Node& node : scene.nodes)
+    if (!node.twin_of.empty()) twins.emplace(node.name, node.twin_of);
+  const auto in_parts = [&](std::string_view node) {
+    const auto twin = twins.find(node);
+    return twin == twins.end() ? node : twin->second;
+  };
   std::set<std::pair<std::string_view, std::string_view>> edges;
   const std::size_t nodes = surface.nodes.size();
   for (std::size_t i = 0; i < (surface.closed ? nodes : nodes - 1); ++i)
-    edges.emplace(surface.nodes[i], surface.nodes[(i + 1) % nodes]);
+    edges.emplace(in_parts(surface.nodes[i]), in_parts(surface.nodes[(i + 1) % nodes]));
   const auto has_edge = [&](const std::vector<std::string_view>& element) {
     for (std::size_t i = 0; i < element.size(); ++i)
       if (edges.count({element[(i + 1) % element.size()], element[i]}) > 0) return true;  // walked the other way

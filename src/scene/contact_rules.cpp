@@ -23,6 +23,9 @@ constexpr double kStraightBack = 1e-6;  // [rad], far above the rounding of coor
 
 const KeyPath kSurfaces = kScene.Key("surfaces");
 
+// Parts have the node of a body, the surface its twin.
+const std::string& NameInParts(const Node& node) { return node.twin_of.empty() ? node.name : node.twin_of; }
+
 bool CanMove(const Node& node) { return !node.fixed_x || !node.fixed_y; }
 
 Eigen::Vector2d Between(const Node& a, const Node& b) { return {b.x - a.x, b.y - a.y}; }
@@ -113,13 +116,10 @@ class BoundaryRules {
     const auto node_of = [this](const std::string& name) -> const Node& { return *checker_.KnownNode(name); };
     const KeyPath path = kSurfaces[static_cast<std::size_t>(&surface - scene_.surfaces.data())];
     judged.sound = CheckEdges(path, surface) && CheckBends(path, surface);
-    for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
-      const Node& node = node_of(surface.nodes[i]);
+    for (const std::string& name : surface.nodes) {
+      const Node& node = node_of(name);
       judged.places.emplace_back(node.x, node.y);
       judged.can_move = judged.can_move || CanMove(node);
-      if (!IsAttached(node)) continue;
-      judged.sound = false;
-      checker_.Add(path.Key("nodes")[i], node.name, "must not move with a body where contacts touch the surface");
     }
     judged.across = SymmetryAxes(surface, scene_, node_of);
     judged.curve.emplace(judged.places, surface.closed, surface.radius, judged.across);
@@ -132,9 +132,11 @@ class BoundaryRules {
     const std::size_t count = surface.nodes.size();
     bool sound = true;
     for (std::size_t i = 0; i < (surface.closed ? count : count - 1); ++i) {
-      const std::string &from = surface.nodes[i], &to = surface.nodes[(i + 1) % count];
+      const Node &start = *checker_.KnownNode(surface.nodes[i]),
+                 &end = *checker_.KnownNode(surface.nodes[(i + 1) % count]);
+      const std::string &from = NameInParts(start), &to = NameInParts(end);
       std::string fault = FaultOf({from, to});
-      const Eigen::Vector2d edge = Between(*checker_.KnownNode(from), *checker_.KnownNode(to));
+      const Eigen::Vector2d edge = Between(start, end);
       if (fault.empty() && std::hypot(edge.x(), edge.y()) < kSmallestInput)
         fault = "must not be at the same point as the next node, " + to;
       if (fault.empty()) continue;
@@ -153,7 +155,7 @@ class BoundaryRules {
     for (std::size_t i = surface.closed ? 0 : 1; i < (surface.closed ? count : count - 1); ++i) {
       const Eigen::Vector2d before = Between(node(i + count - 1), node(i)), after = Between(node(i), node(i + 1));
       if (LeadsBack(before, after)) {
-        checker_.Add(nodes[i], node(i).name, "the surface must not lead straight back here");
+        checker_.Add(nodes[i], NameInParts(node(i)), "the surface must not lead straight back here");
         return false;
       }
       smallest = std::min(smallest, RadiusToTheLeft(before, after));

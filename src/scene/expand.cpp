@@ -378,6 +378,11 @@ void ExpandParts(Scene* scene) {
     if (RubsAtEyes(scene->tendons[k])) ExpandTendon(k, places, scene);
 }
 
+bool IsTouched(const BoundarySurface& surface, const Scene& scene) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [&](const ContactCandidate& contact) { return contact.surface == surface.name; });
+}
+
 Expansion Expand(const TraceRequest& request) {
   Expansion expansion;
   expansion.request = request;
@@ -389,6 +394,8 @@ Expansion Expand(const TraceRequest& request) {
   expansion.contacts = ExpandContacts(groups, &twins, &scene);
   ExpandLoading(groups, &twins, &scene, &expansion);
   for (Stage& stage : expansion.request.program) ExpandLoading(groups, &twins, &stage, &expansion);
+  for (BoundarySurface& surface : scene.surfaces)
+    if (IsTouched(surface, scene)) twins.Bear(&surface);
   twins.AddTo(&scene);
   FixIdleRotations(&expansion.request);
   return expansion;

@@ -26,6 +26,11 @@ class PinnedTwins {
     if (std::find(twins_.begin(), twins_.end(), node) == twins_.end()) twins_.push_back(node);
     return node + kTwin;
   }
+  // The curve of a surface that contacts touch is that of twins.
+  void Bear(BoundarySurface* surface) {
+    for (std::string& node : surface->nodes)
+      if (IsOfBody(node)) node = TwinOf(node);
+  }
   // Calls add(load) with the force on the twin, and the moment on the body.
   template <typename Add>
   void Move(const Load& load, Add&& add) {
@@ -39,6 +44,7 @@ class PinnedTwins {
     for (const std::string& name : twins_) {
       const Node& at = attached_.at(name);
       scene->nodes.push_back({name + kTwin, at.x, at.y});
+      scene->nodes.back().twin_of = name;
       scene->pins.push_back({{name + kTwin, name}, 0.0, 0.0, name + "_pinned"});
     }
   }

@@ -10,6 +10,7 @@
 
 #include "contact_path/geometry/nodal_spline.h"
 #include "contact_path/geometry/surface.h"
+#include "contact_path/structure/place.h"
 
 namespace contact_path {
 
@@ -47,7 +48,7 @@ class DeformableBoundary {
                      double radius);
 
   // elements: of the solid that the curve bounds, the nodes round each.
-  void SetSolid(std::vector<std::vector<NodePlace>> elements) { elements_ = std::move(elements); }
+  void SetSolid(std::vector<std::vector<MovingPlace>> elements) { elements_ = std::move(elements); }
   // across: of each end of an open curve the axis of symmetry that it lies on, 0 across x and 1 across y; -1: none.
   void SetMirroredEnds(const std::array<int, 2>& across);
 
@@ -66,7 +67,7 @@ class DeformableBoundary {
   NodalSpline spline_;
   double radius_;
   double length_per_knot_;
-  std::vector<std::vector<NodePlace>> elements_;
+  std::vector<std::vector<MovingPlace>> elements_;
 };
 
 // A boundary at u, as a surface: its gaps are less by the radius than distances from the spline. The boundary and u

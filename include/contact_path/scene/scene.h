@@ -40,6 +40,9 @@ struct Node {
   bool fixed_y = false;
   bool fixed_rotation = false;  // only where a beam turns the node
   std::string body = {};        // moves with it; then nothing of the node is fixed by itself
+
+  // In an expanded scene: the node of a body, at the same place, to which this one is pinned. No field.
+  std::string twin_of = {};
 };
 
 template <typename P>
