@@ -28,6 +28,9 @@ constexpr double kLeastStepsOfSwing = 40.0;
 constexpr double kLightDrag = 0.03;
 // Extents of the structure: what goes farther flies off.
 constexpr double kFar = 1e3;
+// Disturbances, of the extent. What is stable stays where it is disturbed by as much as rounding leaves of a place
+// where the energy is flat: one that barely holds is passed.
+const std::vector<double> kLeft = {tolerances::kShort, tolerances::kNextToStart}, kHeld = {tolerances::kSameTangent};
 // Ratio of two lengths or speeds of steps, one behind the other. Of the speeds it is 1 / (1 - lambda h) by implicit
 // Euler: beyond, growth is taken for decay. Decay by this ratio settles within few steps.
 constexpr double kMostGrowth = 2.0;
@@ -152,7 +155,9 @@ class Jumper {
     std::vector<Eigen::VectorXd> directions = {push};
     if (at.verdict != Verdict::kStable) directions.push_back(at.direction);
     for (;;) {
-      Course next = Leave(resistance, course, directions, stride);
+      const bool is_stable = course.landing && at.verdict == Verdict::kStable;
+      Course next = Leave(resistance, course, directions, is_stable ? kHeld : kLeft, stride);
+      if (is_stable && Largest(next.now.u - course.now.u) <= tolerances::kNextToStart * extent_) return course;
       if (next.came_back) {
         // It is held here. Where that is known to be wrong, it has not landed.
         course.came_back = course.steps == 0;
@@ -162,7 +167,6 @@ class Jumper {
       course = std::move(next);
       if (!course.rests) return course;
       at = StabilityOf(course.now);
-      if (course.landing && at.verdict == Verdict::kStable) return course;
       directions = {at.direction, GenericVector(moved_.size())};
     }
   }
@@ -170,8 +174,8 @@ class Jumper {
   // By the first disturbance from which the structure does not come back. A limit point is left with the square of the
   // distance from it, a bifurcation with the third power.
   Course Leave(const Resistance& resistance, const Course& from, const std::vector<Eigen::VectorXd>& directions,
-               double stride) {
-    for (const double share : {tolerances::kShort, tolerances::kNextToStart}) {
+               const std::vector<double>& shares, double stride) {
+    for (const double share : shares) {
       for (const Eigen::VectorXd& direction : directions) {
         if (direction.size() == 0 || direction.cwiseProduct(moved_).isZero(0.0)) continue;
         const Eigen::VectorXd free = direction.cwiseProduct(moved_),
