@@ -181,11 +181,11 @@ std::optional<Crossing> FindCrossing(ArcEquations* equations, const Eigen::Vecto
       limits, true, next, [&](const Eigen::VectorXd& dx) { return equations->Norm(dx); }, &crossing.x, &step);
   if (!course.at_rounding) return std::nullopt;
   equations->Residual(crossing.x, &residual);
-  const Eigen::VectorXd rounding = equations->Rounding(crossing.x);
+  const Eigen::VectorXd imperfection = equations->Imperfection(crossing.x);
   for (Eigen::Index j = 0; j < k; ++j) {
     const double length = at.psi.col(j).norm();
     const double unfolding = at.psi.col(j).dot(residual) / length;
-    const double error = rounding.dot(at.psi.col(j).cwiseAbs()) / length;
+    const double error = imperfection.dot(at.psi.col(j).cwiseAbs()) / length;
     if (j > 0 && !(std::abs(unfolding) - error > std::abs(crossing.unfolding) - crossing.error)) continue;
     crossing.unfolding = unfolding;
     crossing.error = error;

@@ -106,6 +106,13 @@ Eigen::VectorXd FixedModeSystem::Rounding(const Eigen::VectorXd& x) const {
   return rounding;
 }
 
+Eigen::VectorXd FixedModeSystem::Imperfection(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd imperfection = Rounding(x);
+  for (const MotionEquation& of : layout_.motions)
+    if (!laws_[of.motion.law].Elastic()) imperfection[of.equation] += of.compliance * std::abs(x[of.force]);
+  return imperfection;
+}
+
 double FixedModeSystem::Energy(const Eigen::VectorXd& x) const {
   double energy = structure_.Energy(x.head(NumDofs()));
   laws_.AddEnergy(x, &energy);

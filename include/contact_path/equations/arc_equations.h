@@ -27,6 +27,8 @@ class ArcEquations {
   virtual void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const = 0;
   // What rounding may leave of each entry of F at x.
   virtual Eigen::VectorXd Rounding(const Eigen::VectorXd& x) const = 0;
+  // The same with what F has besides that the scene has not: a symmetric scene is symmetric in F up to so much.
+  virtual Eigen::VectorXd Imperfection(const Eigen::VectorXd& x) const { return Rounding(x); }
   // The transposed Jacobian J', NumUnknowns() x NumEquations(), compressed; valid until the next call.
   virtual const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x) = 0;
   // d2/dh2 F(x + h dx) at h = 0.

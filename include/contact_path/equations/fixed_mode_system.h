@@ -57,6 +57,8 @@ class FixedModeSystem : public ArcEquations {
   void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const override;
   // Forces of the parts by the rounding of the coordinates, loads and reactions, and lengths, by their own.
   Eigen::VectorXd Rounding(const Eigen::VectorXd& x) const override;
+  // Rigid parts give way in contacts and pins.
+  Eigen::VectorXd Imperfection(const Eigen::VectorXd& x) const override;
   // The largest entry of a residual; equations of equilibrium are measured in Structure::ResidualUnits().
   double Largest(const Eigen::VectorXd& residual) const;
   // Strain energy of the structure and of the laws [force length].
