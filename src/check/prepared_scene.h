@@ -78,8 +78,14 @@ struct ResidualCheck::Prepared {
     check::Real size = scaling.length;
     for (const double coordinate : configuration.start) size = std::max<check::Real>(size, std::abs(coordinate));
     std::vector<check::Real> stiffness(scene.nodes.size(), 0.0L);
-    for (const auto& element : elements)
-      for (const std::size_t node : element->Nodes()) stiffness[node] += element->Stiffness();
+    const auto body_of = [&](std::size_t node) -> const std::string& { return TurnsWith(scene.nodes[node]); };
+    for (const auto& element : elements) {
+      const auto& nodes = element->Nodes();
+      if (element->GetKind() != check::Element::Kind::kLinearPart &&
+          std::all_of(nodes.begin(), nodes.end(), [&](std::size_t node) { return body_of(node) == body_of(nodes[0]); }))
+        continue;  // a body holds it rigid
+      for (const std::size_t node : nodes) stiffness[node] += element->Stiffness();
+    }
     attached->Share(&stiffness);
     for (const check::Real at_node : stiffness) largest_stiffness = std::max(largest_stiffness, at_node);
     for (const check::Real at_node : stiffness)
@@ -113,7 +119,9 @@ struct ResidualCheck::Prepared {
       const std::optional<std::size_t> surface = contact->TouchedSurface();
       contact_units.push_back(surface ? std::max(units[contact->Node()], of_surfaces[*surface])
                                       : units[contact->Node()]);
-      if (contact->Gives()) contact_units.back() = std::max(contact_units.back(), check::kForceOfGive * scaling.force);
+      const bool pinned = !scene.nodes[contact->Node()].twin_of.empty();
+      if (contact->Gives() || pinned)
+        contact_units.back() = std::max(contact_units.back(), check::kForceOfGive * scaling.force);
     }
   }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
@@ -26,7 +28,13 @@ LimitRule OfForces(ContactLimit limit, const PortReals& weights, double unit, Co
   return rule;
 }
 
+constexpr double kCoordinate = 1e-15;  // known to so much, scaled
+
 }  // namespace
+
+double ContactPair::ForceUnitOf(double compliance) {
+  return std::exp2(std::ceil(std::log2(kCoordinate / (compliance * tolerances::kActive))));
+}
 
 void ContactPair::SetContact(Traits traits, const SurfaceTraits& surface_traits) {
   surface_traits_ = surface_traits;

@@ -206,10 +206,11 @@ struct DeformablePair::Stencil {
 
 DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
                                const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds,
-                               const BroughtOn& overlap)
+                               const BroughtOn& overlap, double told_by)
     : boundary_(std::move(boundary)), patches_(patches), node_(node) {
   Traits traits;
   traits.largest_ratio = friction;
+  traits.told_by = told_by;
   traits.compliant = traits.couples = traits.curved = true;
   traits.moves[kNormal].set();
   traits.moves[kTangent].set();
@@ -231,6 +232,7 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
     if (own > 0.0 && (own < bound || bound == 0.0)) bound = own;
     traits.force_unit = ForceUnitAbove(bound);
   }
+  if (told_by > 0.0) traits.force_unit = std::max(traits.force_unit, ForceUnitOf(told_by));
   SetContact(traits, of_surface);
 }
 

@@ -7,11 +7,6 @@
 #include <utility>
 
 namespace contact_path {
-namespace {
-
-constexpr double kCoordinate = 1e-15;  // known to so much, scaled
-
-}  // namespace
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, double friction,
                      const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin,
@@ -75,10 +70,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, MovingPlace place, 
           (traits.curved ? 1.0 : std::abs(gap_gradient_[static_cast<Eigen::Index>(i)])) * force_bounds[traits.dofs[i]];
     traits.force_unit = ForceUnitAbove(bound);
   }
-  // What rounding of coordinates makes of the force.
-  if (compliance > 0.0)
-    traits.force_unit =
-        std::max(traits.force_unit, std::exp2(std::ceil(std::log2(kCoordinate / (compliance * tolerances::kActive)))));
+  if (compliance > 0.0) traits.force_unit = std::max(traits.force_unit, ForceUnitOf(compliance));
   SetContact(traits, of_surface);
 }
 

@@ -96,9 +96,9 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       const BoundarySurface& surface = scene.surfaces[index.Surface(candidate.surface)];
       PlacedBoundary& on = boundaries[index.Surface(candidate.surface)];
       if (on.boundary == nullptr) on = MakeBoundary(surface, scene, index, structure);
-      contacts.push_back(
-          std::make_unique<DeformablePair>(on.boundary, PatchesFor(candidate.node, surface, on.initial, on.across),
-                                           PlaceOf(structure, node), candidate.friction, force_bounds, overlap));
+      contacts.push_back(std::make_unique<DeformablePair>(
+          on.boundary, PatchesFor(candidate.node, surface, on.initial, on.across), PlaceOf(structure, node),
+          candidate.friction, force_bounds, overlap, candidate.twin_of.empty() ? 0.0 : tolerances::kRootOfRounding));
       continue;
     }
     if (candidate.at_eye) {

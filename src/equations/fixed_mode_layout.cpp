@@ -14,7 +14,11 @@ FixedModeLayout::FixedModeLayout(const Structure& structure, const LawsInModes& 
   for (const std::size_t i : laws.Acting())
     for (std::size_t p = 0; p < laws[i].NumPorts(); ++p)
       if (const PortRule& port = laws.StateOf(i).ports[p]; port.Holds())
-        motions.push_back({{i, p}, next++, port.compliance, laws.UnknownOf(i, p)});
+        motions.push_back({{i, p},
+                           next++,
+                           port.compliance,
+                           laws.UnknownOf(i, p),
+                           laws[i].Elastic() ? 0.0 : std::max(port.compliance, laws[i].ToldBy())});
   first_support_equation = next;
   next += supports;
   first_active_equation = next;

@@ -109,7 +109,8 @@ Eigen::VectorXd FixedModeSystem::Rounding(const Eigen::VectorXd& x) const {
 Eigen::VectorXd FixedModeSystem::Imperfection(const Eigen::VectorXd& x) const {
   Eigen::VectorXd imperfection = Rounding(x);
   for (const MotionEquation& of : layout_.motions)
-    if (!laws_[of.motion.law].Elastic()) imperfection[of.equation] += of.compliance * std::abs(x[of.force]);
+    if (of.compliance != 0.0 && !laws_[of.motion.law].Elastic())
+      imperfection[of.equation] += std::abs(of.compliance * x[of.force]);
   return imperfection;
 }
 
@@ -144,8 +145,7 @@ Eigen::VectorXd FixedModeSystem::Counted(const Eigen::VectorXd& change) const {
   }
   if (layout_.gives)
     for (const MotionEquation& of : layout_.motions)
-      if (of.equation < layout_.first_support_equation && of.compliance != 0.0 && !laws_[of.motion.law].Elastic())
-        counted[of.force] *= of.compliance;
+      if (of.told_by != 0.0) counted[of.force] *= of.told_by;
   return counted;
 }
 

@@ -52,19 +52,23 @@ double LengthOf(const std::vector<std::string>& nodes, const Scene& scene, const
 }
 
 // Length and force of all solids as one body: the root of its area, and the mean of Young's modulus x thickness, by its
-// logarithm over the area, x that length. They do not depend on the mesh. There must be a solid.
-Scaling ScalesOfSolids(const Scene& scene, const SceneIndex& index) {
+// logarithm over the area, x that length. They do not depend on the mesh. A length of 0: none can deform.
+Scaling ScalesOfSolids(const Scene& scene, const SceneIndex& index, const DeformableElements& deformable) {
   std::vector<double> areas, logarithms;
   for (const Solid& solid : scene.solids) {
     const double E = YoungModulus(LameOf(scene.materials[index.Material(solid.material)]));
     const double logarithm = std::log(E) + std::log(solid.Thickness());
     const std::size_t count = solid.NodesPerElement();
     std::vector<double> positions;
+    std::vector<std::string> element;
     for (const std::string& name : solid.nodes) {
       const Node& node = scene.nodes[index.Node(name)];
       positions.insert(positions.end(), {node.x, node.y});
-      if (positions.size() < 2 * count) continue;
-      for (const PlacedPoint& point : PlacePoints(positions)) {
+      element.push_back(name);
+      if (element.size() < count) continue;
+      const bool deforms = deformable.Have(element);
+      element.clear();
+      for (const PlacedPoint& point : deforms ? PlacePoints(positions) : std::vector<PlacedPoint>()) {
         areas.push_back(point.area);
         logarithms.push_back(point.area * logarithm);
       }
@@ -74,6 +78,7 @@ Scaling ScalesOfSolids(const Scene& scene, const SceneIndex& index) {
   const double area = OrderedSum(std::move(areas));
   Scaling scaling;
   scaling.length = std::sqrt(area);
+  if (area == 0.0) return scaling;
   scaling.force = std::exp(OrderedSum(std::move(logarithms)) / area) * scaling.length;
   return scaling;
 }
@@ -86,16 +91,17 @@ Scaling ScalesOfElements(const Scene& scene, const SceneIndex& index) {
     lengths.push_back(length);
     logarithms.push_back(std::log(force));
   };
-  for (const Bar& bar : scene.bars) add(LengthOf(bar.nodes, scene, index), bar.EA);
-  for (const Tendon& tendon : scene.tendons) add(LengthOf(tendon.nodes, scene, index), tendon.EA);
+  const DeformableElements deformable(scene);
+  for (const Bar& bar : scene.bars)
+    if (deformable.Have(bar.nodes)) add(LengthOf(bar.nodes, scene, index), bar.EA);
+  for (const Tendon& tendon : scene.tendons)
+    if (deformable.Have(tendon.nodes)) add(LengthOf(tendon.nodes, scene, index), tendon.EA);
   for (const Beam& beam : scene.beams) {
+    if (!deformable.Have(beam.nodes)) continue;
     const double length = LengthOf(beam.nodes, scene, index);
     add(length, beam.EI / (length * length));
   }
-  if (!scene.solids.empty()) {
-    const Scaling body = ScalesOfSolids(scene, index);
-    add(body.length, body.force);
-  }
+  if (const Scaling body = ScalesOfSolids(scene, index, deformable); body.length > 0.0) add(body.length, body.force);
   const auto count = static_cast<double>(lengths.size());
   Scaling scaling;
   scaling.length = OrderedSum(std::move(lengths)) / count;
@@ -297,7 +303,15 @@ double ExtentOfNodes(const Scene& scene) {
 }
 
 bool HasForceScale(const Scene& scene) {
-  return !scene.bars.empty() || !scene.beams.empty() || !scene.solids.empty() || !scene.tendons.empty();
+  const DeformableElements deformable(scene);
+  return deformable.HaveAnyOf(scene.bars) || deformable.HaveAnyOf(scene.beams) || deformable.HaveAnyOf(scene.tendons) ||
+         std::any_of(scene.solids.begin(), scene.solids.end(), [&](const Solid& solid) {
+           const auto count = static_cast<std::ptrdiff_t>(solid.NodesPerElement());
+           if (!IsCellShape(solid.NodesPerElement())) return true;
+           for (auto at = solid.nodes.begin(); solid.nodes.end() - at >= count; at += count)
+             if (deformable.Have(at, at + count)) return true;
+           return false;
+         });
 }
 
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
@@ -335,8 +349,9 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
 
 double ForceOfElements(const Scene& scene, const SceneIndex& index, double loads, bool moves) {
   const Scaling of_elements = ScalesOfElements(scene, index);
+  const DeformableElements deformable(scene);
   const double light = std::max(loads, LoadNorm(scene, index, true, of_elements.length));
-  return moves || !scene.bars.empty() || !scene.tendons.empty() || light == 0.0
+  return moves || deformable.HaveAnyOf(scene.bars) || deformable.HaveAnyOf(scene.tendons) || light == 0.0
              ? of_elements.force
              : std::min(of_elements.force, kLightest * light);
 }

@@ -49,8 +49,19 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
   NumberUnknowns(scene, index, configuration, elements);
   Attach(scene, index);
   loads_ = DeadLoads(scene, index, dofs_);
-  for (PlacedElement& placed : elements)
+  const auto body_of = [this](int node) { return attachments_.count(node) > 0 ? attachments_.at(node).body : node; };
+  for (PlacedElement& placed : elements) {
+    // Superelements hold nodes to the plane.
+    const bool deforms = placed.element->Linear() ||
+                         std::any_of(placed.nodes.begin(), placed.nodes.end(),
+                                     [&](int node) { return body_of(node) != body_of(placed.nodes.front()); });
     AddPart(AttachedElement::Wrap(std::move(placed), [this](int node) { return AttachmentOf(node); }));
+    if (deforms) continue;
+    Eigen::VectorXd x(static_cast<Eigen::Index>(parts_.back().dofs.size()));
+    Gather(parts_.back(), start_, x);
+    rigid_energy_ += parts_.back().element->Energy(x);
+    parts_.pop_back();
+  }
   BuildPattern();
   // Coordinates are rounded relative to their size.
   double size = 1.0;
@@ -235,7 +246,7 @@ void Structure::Assemble(const Eigen::Ref<const Eigen::VectorXd>& u, Fill fill,
 }
 
 double Structure::Energy(const Eigen::VectorXd& u) const {
-  double energy = 0.0;
+  double energy = rigid_energy_;
   ForEachPart(u, [&](const Part& part, const auto& x) { energy += part.element->Energy(x); });
   return energy;
 }

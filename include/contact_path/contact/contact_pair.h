@@ -138,6 +138,8 @@ class ContactPair : public Law {
     bool tangent_gives = true;  // whether it is that of the tangential port, too
     BroughtOn overlap;
   };
+  // Of forces that a small compliance alone tells: what rounding of coordinates makes of them.
+  static double ForceUnitOf(double compliance);
   // Of a distance from the surface.
   double GapAt(double s, double distance) const {
     const BroughtOn& overlap = surface_traits_.overlap;

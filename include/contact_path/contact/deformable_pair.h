@@ -17,10 +17,11 @@ namespace contact_path {
 class DeformablePair : public ContactPair {
  public:
   // patches: of the spline of the boundary; of a node of the boundary itself, the patches that it may touch.
-  // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
+  // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1. told_by: of a node that is pinned to
+  // a body, the compliance of that pin.
   DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
                  const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
-                 const BroughtOn& overlap = {});
+                 const BroughtOn& overlap = {}, double told_by = 0.0);
 
   LawDofs Dofs(int patch) const override;
   void Evaluate(const Eigen::VectorXd& u, double s, int patch, const PortReals& reference,

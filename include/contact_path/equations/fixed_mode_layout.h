@@ -17,6 +17,7 @@ struct MotionEquation {
   Eigen::Index equation;
   double compliance = 0.0;
   Eigen::Index force = -1;  // unknown; -1 where nothing gives way
+  double told_by = 0.0;     // a small compliance that alone may tell the force: as here, or Law::ToldBy(); 0: none
 };
 
 // Unknowns: u, s, forces of the ports that are held, reactions of the prescribed components. Equations: equilibrium,

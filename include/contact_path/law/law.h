@@ -102,6 +102,8 @@ class Law {
   bool Couples() const { return traits_.couples; }
   // Whether what it holds gives way: its forces are not redundant beside those of another law.
   bool Compliant() const { return traits_.compliant; }
+  // The small compliance, of another law in series with it, that alone may tell its forces; 0: there is none.
+  double ToldBy() const { return traits_.told_by; }
   // Whether its compliances are its own, and its forces functions of the place; otherwise compliances are there to make
   // reactions unique.
   bool Elastic() const { return traits_.elastic; }
@@ -201,6 +203,7 @@ class Law {
     double force_unit = 1.0;
     double largest_ratio = 0.0;
     double largest_reach_rate = 1.0;
+    double told_by = 0.0;  // ToldBy()
   };
   const LawDofs& OwnDofs() const { return traits_.dofs; }
   // What does not change; set once, by the constructor. `idle` and `slides` follow from the ports.

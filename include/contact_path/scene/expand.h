@@ -2,9 +2,12 @@
 #ifndef CONTACT_PATH_SCENE_EXPAND_H_
 #define CONTACT_PATH_SCENE_EXPAND_H_
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "contact_path/scene/scene.h"
@@ -54,6 +57,34 @@ inline bool IsBody(const Node& node) { return !node.body.empty() && node.body ==
 inline bool IsAttached(const Node& node) { return !node.body.empty() && node.body != node.name; }
 // The node whose rotation is that of what holds the node: its body, or itself.
 inline const std::string& TurnsWith(const Node& node) { return node.body.empty() ? node.name : node.body; }
+
+// Which elements can deform: not all of their nodes are of one body.
+class DeformableElements {
+ public:
+  // scene: must outlive this.
+  explicit DeformableElements(const Scene& scene) {
+    for (const Node& node : scene.nodes)
+      if (!node.body.empty()) bodies_.emplace(node.name, node.body);
+  }
+  // The nodes of an element.
+  template <typename Iterator>
+  bool Have(Iterator begin, Iterator end) const {
+    const auto first = begin == end ? bodies_.end() : bodies_.find(*begin);
+    return first == bodies_.end() || std::any_of(begin, end, [&](const std::string& node) {
+             const auto found = bodies_.find(node);
+             return found == bodies_.end() || found->second != first->second;
+           });
+  }
+  bool Have(const std::vector<std::string>& nodes) const { return Have(nodes.begin(), nodes.end()); }
+  // Bars, tendons or beams.
+  template <typename Part>
+  bool HaveAnyOf(const std::vector<Part>& parts) const {
+    return std::any_of(parts.begin(), parts.end(), [this](const Part& part) { return Have(part.nodes); });
+  }
+
+ private:
+  std::unordered_map<std::string_view, std::string_view> bodies_;  // by node
+};
 
 // By pin of an expanded scene: whether it is part of a loop of pins, from body or node to body or node, or from one
 // thing that a support or a contact may hold to another. Only there may equilibrium not tell the forces of pins. Names

@@ -132,7 +132,8 @@ class Structure {
   DeadLoads loads_;
   std::vector<PrescribedDof> prescribed_;
   std::vector<std::size_t> oblique_supports_;
-  std::vector<Part> parts_;
+  std::vector<Part> parts_;                     // without elements all of whose nodes are of one body
+  double rigid_energy_ = 0.0;                   // of those
   std::vector<std::vector<int>> bodies_;        // components of each
   std::map<int, Eigen::Vector2d> body_starts_;  // by node, of the scene
   std::map<int, Attachment> attachments_;       // by node
