@@ -50,7 +50,7 @@ class Circle : public Surface {
 };
 
 // Of a piece: what is no farther beyond its end is at the end.
-constexpr Real kAtEnd = 1e-12L;
+constexpr Real kBeyond = 1e-12L;
 
 // A curve of pieces, each of which is walked from its begin to its end. A piece has a parameter from 0 to End(), and
 // Foot() one that may be beyond; Direction() is of length 1, and Walked() is the length of the curve up to a place.
@@ -114,7 +114,7 @@ class Walk : public Surface {
       const Vector place = piece.Place(at);
       const Real distance = Length(x - place);
       if (distance < nearest.distance || (distance == nearest.distance && i < nearest_piece)) {
-        const Real rounding = kAtEnd * piece.End();
+        const Real rounding = kBeyond * piece.End();
         const bool before = i == 0 && -on > rounding, behind = i + 1 == pieces_.size() && on - piece.End() > rounding;
         const bool is_end = !closed_ && (before || behind);
         nearest = {place, Left(piece.Direction(at)), piece.Walked(at), distance, is_end};
