@@ -104,12 +104,14 @@ class ObstacleContact : public Contact {
     const Real gap = Distance(state), step = sense * std::max(step_, std::abs(gap));
     if ((!gives_ && !IsBroughtOn()) || gap == 0.0L) return 1.0L;
     const Vector at = Position(state), n = obstacle_.surface->Normal(at), closed = at - gap * n;
-    const Vector along = step * Right(n);
+    Vector along = step * Right(n);
     // About an end the foot rests, and the way is that of the centre.
     const auto way = [&](const Vector& from) {
       const Real of_foot = obstacle_.surface->Slip(from, from + along);
       return obstacle_.has_corners ? of_foot - obstacle_.radius * TurnOfTangent(from, from + along) : of_foot;
     };
+    // At the end of a curve there is the way back alone.
+    if (std::abs(way(closed)) < 0.5L * std::abs(step)) along = -1.0L * along;
     return way(at) / way(closed);
   }
   Real TurnOfTangent(const Vector& begin, const Vector& end) const {

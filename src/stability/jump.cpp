@@ -28,9 +28,9 @@ constexpr double kLeastStepsOfSwing = 40.0;
 constexpr double kLightDrag = 0.03;
 // Extents of the structure: what goes farther flies off.
 constexpr double kFar = 1e3;
-// Disturbances, of the extent. What is stable stays where it is disturbed by as much as rounding leaves of a place
-// where the energy is flat: one that barely holds is passed.
-const std::vector<double> kLeft = {tolerances::kShort, tolerances::kNextToStart}, kHeld = {tolerances::kSameTangent};
+// Disturbances, of the extent, or of the way so far. What is stable stays where it is disturbed by as much as rounding
+// leaves of a place where the energy is flat: one that barely holds is passed.
+const std::vector<double> kLeft = {tolerances::kShort, tolerances::kNextToStart}, kHeld = {tolerances::kShort};
 // Ratio of two lengths or speeds of steps, one behind the other. Of the speeds it is 1 / (1 - lambda h) by implicit
 // Euler: beyond, growth is taken for decay. Decay by this ratio settles within few steps.
 constexpr double kMostGrowth = 2.0;
@@ -179,7 +179,7 @@ class Jumper {
       for (const Eigen::VectorXd& direction : directions) {
         if (direction.size() == 0 || direction.cwiseProduct(moved_).isZero(0.0)) continue;
         const Eigen::VectorXd free = direction.cwiseProduct(moved_),
-                              disturbance = share * extent_ / Largest(free) * free;
+                              disturbance = share * std::max(extent_, from.followed) / Largest(free) * free;
         for (const double sense : {1.0, -1.0}) {
           Course course = Move(resistance, from, sense * disturbance, stride);
           if (!course.came_back) return course;

@@ -184,6 +184,38 @@ TEST(PointsOfBodies, ARingIsPutOnAPeg) {
     }
 }
 
+// A plate that is dragged over two springs by a face that it carries: the path ends where the first one comes to the
+// end of the face, 0.7 of the length from where it was.
+TEST(PointsOfBodies, AFaceOfABodyComesToItsEnd) {
+  for (const double friction : {0.0, 0.3})
+    for (const double length : {1e-3, 1.0, 1e3})
+      for (const double angle : {0.0, 0.7}) {
+        SCOPED_TRACE(testing::Message() << friction << ' ' << length << ' ' << angle);
+        Scene scene;
+        RigidBody plate{"plate", 0.0, 0.2};
+        plate.fixed_rotation = true;
+        scene.bodies = {plate};
+        scene.nodes = {{"g", -0.3, 0.0}, {"h", 0.4, 0.0}, NodeOf("plate", "c", 0.0, 0.2), {"w", -2.0, 0.2, true, true}};
+        scene.bars = {{{"w", "c"}, 1.0}};
+        scene.superelements = {{{"g"}, {40.0, 0.0, 0.0, 100.0}}, {{"h"}, {60.0, 0.0, 0.0, 100.0}}};
+        Obstacle face{"face", ObstacleShape::kPolyline};
+        face.points = {1.0, 0.0, -1.0, 0.0};
+        face.body = "plate";
+        face.friction = friction;
+        scene.obstacles = {face};
+        scene.contacts = {{"g", "face"}, {"h", "face"}};
+        scene.loads = {LoadOnBody("plate", 0.0, -1.0, true), LoadOnBody("plate", 1.5, 0.0)};
+        const TraceRequest request = Rotate(ChangeUnits(RequestWithin(400, scene), length, 1.0), angle);
+        const TracedPath path = TraceTo(request, EndReason::kPathEnd);
+        const Increment& last = path.increments.back();
+        EXPECT_NEAR(std::hypot(PositionX(path, last, "g") - PositionX(path, last, "c"),
+                               PositionY(path, last, "g") - PositionY(path, last, "c")) /
+                        length,
+                    std::hypot(1.0, 0.2), 1e-7);
+        EXPECT_NE(path.result.message.find("g@face"), std::string::npos) << path.result.message;
+      }
+}
+
 // A disc of the weight W and the radius R in a right angle turns at M = mu sqrt(2) / (1 + mu^2) W R.
 TEST(PointsOfBodies, ADiscTurnsInARightAngle) {
   for (const double radius : {1e-3, 1.0, 200.0})
