@@ -111,7 +111,7 @@ class ObstacleContact : public Contact {
       return obstacle_.has_corners ? of_foot - obstacle_.radius * TurnOfTangent(from, from + along) : of_foot;
     };
     // At the end of a curve there is the way back alone.
-    if (std::abs(way(closed)) < 0.5L * std::abs(step)) along = -1.0L * along;
+    if (std::abs(way(closed)) < kNoWay * std::abs(step)) along = -1.0L * along;
     return way(at) / way(closed);
   }
   Real TurnOfTangent(const Vector& begin, const Vector& end) const {
@@ -134,6 +134,8 @@ class ObstacleContact : public Contact {
   // Of coordinates: their rounding over it is far below the residual that is accepted, and the ratio of the two slips
   // differs from its limit by its square times the gap only.
   static constexpr Real kStep = 1e-5L;
+  // Of a step: the foot is at the end of a curve. About a circle that is far smaller than the other one it goes farther.
+  static constexpr Real kNoWay = 1e-6L;
 
   MovedObstacle obstacle_;
   std::optional<Vector> slip_origin_;
