@@ -134,7 +134,8 @@ class ObstacleContact : public Contact {
   // Of coordinates: their rounding over it is far below the residual that is accepted, and the ratio of the two slips
   // differs from its limit by its square times the gap only.
   static constexpr Real kStep = 1e-5L;
-  // Of a step: the foot is at the end of a curve. About a circle that is far smaller than the other one it goes farther.
+  // Of a step: the foot is at the end of a curve. About a circle that is far smaller than the other one it goes
+  // farther.
   static constexpr Real kNoWay = 1e-6L;
 
   MovedObstacle obstacle_;

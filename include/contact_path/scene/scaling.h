@@ -21,7 +21,8 @@ struct Scaling {
   double load_factor = 1.0;  // LoadFactorScale
 };
 
-// Whether length and force follow from the elements alone: a bar, a beam, a solid or a tendon that can deform gives both.
+// Whether length and force follow from the elements alone: a bar, a beam, a solid or a tendon that can deform gives
+// both.
 bool HasForceScale(const Scene& scene);
 
 // Twice the largest distance of a node from the mean of all nodes [length]. The scene must have a node.
