@@ -103,5 +103,43 @@ TEST(SurfacesOnBodies, APadIsGluedToAJaw) {
       }
 }
 
+// A block of the weight 1 on the outline of a body, of beams that nothing bends, is pushed 0.05 above by 0.8 s: it
+// slides at 0.8 s = 0.4, however many of its nodes stand on the outline, and whatever the beams could bear.
+TEST(SurfacesOnBodies, ABlockSlidesOnAnOutline) {
+  for (const bool of_body : {true, false})
+    for (const int feet : {2, 3, 5})
+      for (const double stiffness : {1e-6, 1.0, 1e9}) {
+        if (!of_body && stiffness != 1.0) continue;  // beams between nodes that supports hold can bend
+        SCOPED_TRACE(testing::Message() << of_body << ' ' << feet << ' ' << stiffness);
+        Scene scene;
+        scene.bodies = {{"block", 0.0, 1.05}};
+        if (of_body) scene.bodies.push_back({"anvil", 0.0, 0.0, true, true, true});
+        BoundarySurface outline{"outline", {}, true};
+        const auto add = [&](double x, double y) {
+          const std::string name = "o" + std::to_string(outline.nodes.size());
+          scene.nodes.push_back(of_body ? NodeOf("anvil", name, x, y) : Node{name, x, y, true, true, true});
+          outline.nodes.push_back(name);
+        };
+        for (int i = 0; i < 8; ++i) add(-1.0 + 0.25 * i, 1.0);
+        for (int i = 0; i < 4; ++i) add(1.0, 1.0 - 0.25 * i);
+        for (int i = 0; i < 8; ++i) add(1.0 - 0.25 * i, 0.0);
+        for (int i = 0; i < 4; ++i) add(-1.0, 0.25 * i);
+        for (std::size_t i = 0; i < outline.nodes.size(); ++i)
+          scene.beams.push_back(Between("edge" + std::to_string(i), outline.nodes[i],
+                                        outline.nodes[(i + 1) % outline.nodes.size()], stiffness, stiffness, 1));
+        scene.surfaces = {outline};
+        for (int i = 0; i < feet; ++i) {
+          const std::string foot = "foot" + std::to_string(i);
+          scene.nodes.push_back(NodeOf("block", foot, -0.53 + i / (feet - 1.0), 1.0));
+          scene.contacts.push_back({foot, "", "", "outline", 0.4});
+        }
+        scene.loads = {LoadOnBody("block", 0.0, -1.0, true)};
+        const TracedPath path =
+            TraceTo(RequestUpToALimit(scene, {LoadingStage({LoadOnBody("block", 0.8, 0.0)})}), EndReason::kAtLimit);
+        EXPECT_NEAR(path.increments.back().load_factor, 0.5, 1e-10);
+        ExpectNoFindings(path);
+      }
+}
+
 }  // namespace
 }  // namespace contact_path::surfaces_on_bodies_test
