@@ -51,7 +51,7 @@ TEST(SurfacesOnBodies, ALeverIsTurnedThroughItsSurface) {
           const double d = (2.5 * a - h * std::sin(p)) / std::cos(p), N = k * p / (d - friction * h);
           const double down = h - h * std::cos(p) + d * std::sin(p);
           EXPECT_NEAR(path.increments[i].load_factor * k / a,
-                      N * (std::cos(p) - friction * std::sin(p)) + 0.1 * k / (a * a) * down, 1e-7 * k / a);
+                      N * (std::cos(p) - friction * std::sin(p)) + 0.1 * k / (a * a) * down, 1e-12 * k / a);
         }
       }
 }
@@ -136,7 +136,7 @@ TEST(SurfacesOnBodies, ABlockSlidesOnAnOutline) {
         scene.loads = {LoadOnBody("block", 0.0, -1.0, true)};
         const TracedPath path =
             TraceTo(RequestUpToALimit(scene, {LoadingStage({LoadOnBody("block", 0.8, 0.0)})}), EndReason::kAtLimit);
-        EXPECT_NEAR(path.increments.back().load_factor, 0.5, 1e-10);
+        EXPECT_NEAR(path.increments.back().load_factor, 0.5, 1e-12);
         ExpectNoFindings(path);
       }
 }

@@ -29,7 +29,7 @@ TEST(TurnsOfRigidParts, AnEccentricDiscRollsOn) {
         request.scene = scene;
         request.options.at_limit = AtLimit::kJump;
         const TracedPath path = TraceTo(Rotate(request, angle), EndReason::kNoLanding);
-        EXPECT_NEAR(path.increments.back().load_factor, 2.0 * share, 1e-10);
+        EXPECT_NEAR(path.increments.back().load_factor, 2.0 * share, 1e-12);
         EXPECT_TRUE(IncrementsOfKind(path, IncrementKind::kJump).empty());
       }
 }
